@@ -13,7 +13,7 @@ use multibody_engine::model::Soundness;
 use multibody_engine::model::types::Model;
 use multibody_engine::optimize::program::Compiled;
 use multibody_engine::optimize::{Excess, Refusal};
-use multibody_engine::{Trouble, compile, mechanics, model, settled, syntax};
+use multibody_engine::{Trouble, chosen, compile, mechanics, model, settled, syntax};
 use proc_macro2::TokenStream;
 
 use crate::Stop;
@@ -97,8 +97,13 @@ pub(crate) fn each<T>(
             if subject.model.as_ref().is_some_and(|only| *only != name) {
                 continue;
             }
-            match progress::during(&format!("{verb} `{name}`"), || work(&model)) {
-                Ok(made) => models.push((model, made)),
+            let worked: Result<_, Trouble> = progress::during(&format!("{verb} `{name}`"), || {
+                let chosen = chosen(&model)?.into_owned();
+                let made = work(&chosen)?;
+                Ok((chosen, made))
+            });
+            match worked {
+                Ok((chosen, made)) => models.push((chosen, made)),
                 Err(trouble) => trouble.report(&model, &mut diagnostics),
             }
         }

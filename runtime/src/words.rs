@@ -132,6 +132,8 @@ pub mod item {
         pub rounds: Scalar,
         /// Whether limbs that are alike are computed four at a time: `Off` or `Four`.
         pub packs: super::packs::Four,
+        /// Velocity coordinates: `Rates` of coordinates, or `Auto`, by the counts of several choices.
+        pub speeds: super::speeds::Auto,
         /// `[1/s]` of `Stabilised`: the factor of the residual's derivative.
         pub rate: Scalar,
         /// `[1/s^2]` of `Stabilised`: the factor of the residual.
@@ -439,6 +441,15 @@ pub mod packs {
 
     /// Four at a time, where that is worth it.
     pub struct Four;
+}
+
+/// Which velocity coordinates a model has, where no `speed` items say so.
+pub mod speeds {
+    /// The rates of coordinates.
+    pub struct Rates;
+
+    /// Those, or components of velocities of bodies, by the counts of several choices.
+    pub struct Auto;
 }
 
 /// What `emit` asks for.

@@ -8,7 +8,7 @@ use std::sync::OnceLock;
 use multibody_engine::contracts::cost::Cost;
 use multibody_tests::models::{arms, motion, small};
 use multibody_tests::support::data::path;
-use multibody_tests::support::ledger::{Behind, Packed, Row, Written, all, flops, once, packed};
+use multibody_tests::support::ledger::{Behind, InSpeeds, Packed, Row, Written, all, flops, in_speeds, once, packed};
 use multibody_tests::support::required::{CASES, Case};
 
 /// Additions, products, quotients that others need, for arms whose every number is a literal.
@@ -92,6 +92,16 @@ fn written() -> String {
         let (after, sum) = (Written(&after), flops(&after) + after.sincos);
         writeln!(text, "| {model} | {function} | {after} | {sum} | {packed} | {scalar} |").unwrap();
     }
+    text += "\n## In speeds\n\n\
+             Forward dynamics with the velocities that `formulation { speeds: Auto }` takes, beside the rates of coordinates.\n\n\
+             | model | in rates | sum | in speeds | sum | `position_rates` among them | speeds |\n\
+             |---|---|---|---|---|---|---|\n";
+    for InSpeeds { model, in_rates, in_speeds, speeds, position_rates } in in_speeds() {
+        let speeds = if speeds.is_empty() { "rates of coordinates".to_owned() } else { speeds.join(", ") };
+        let (rates, own, positions) = (Written(&in_rates), Written(&in_speeds), Written(&position_rates));
+        let sums = [&in_rates, &in_speeds].map(flops);
+        writeln!(text, "| {model} | {rates} | {} | {own} | {} | {positions} | {speeds} |", sums[0], sums[1]).unwrap();
+    }
     text += "\n## Bars\n\n\
              Every number `const`; sums of additions, products, quotients and roots. Hand: a pruned recursion written by\n\
              hand (CasADi where there is none).\n\n\
@@ -139,6 +149,19 @@ fn counts_are_those_of_the_ledger() {
         now == committed,
         "the ledger has changed; if that is meant, UPDATE_LEDGER=1 and say why\nwas {gone:#?}\nis {came:#?}"
     );
+}
+
+/// What is chosen takes no more work than the rates do.
+#[test]
+fn chosen_speeds_are_no_dearer() {
+    for row in in_speeds() {
+        assert!(row.in_speeds.weight() <= row.in_rates.weight(), "{}", row.model);
+    }
+    let found = in_speeds();
+    let of = |name: &str| found.iter().find(|row| row.model == name).unwrap();
+    for name in ["rigid_body", "floating_body", "top", "two_limbs", "three_limbs"] {
+        assert!(flops(&of(name).in_speeds) < flops(&of(name).in_rates), "{name}");
+    }
 }
 
 #[test]

@@ -222,6 +222,40 @@ pub fn packed() -> Vec<Packed> {
 /// Those models.
 const PACKED: [&str; 2] = ["quadruped", "stewart, reduced"];
 
+/// Forward dynamics of a model in one choice of velocities and in another.
+pub struct InSpeeds {
+    /// Of the generated module.
+    pub model: String,
+    pub in_rates: Cost,
+    pub in_speeds: Cost,
+    /// The speeds that the model's `speeds: Auto` stands for.
+    pub speeds: Vec<String>,
+    /// Rates of coordinates from speeds, which forward dynamics holds.
+    pub position_rates: Cost,
+}
+
+/// Models of `models/turning.rs`, with the speeds that are chosen for them and without.
+pub fn in_speeds() -> Vec<InSpeeds> {
+    let of = |model: Model| {
+        let cost = |model: &Model, wanted: &str| {
+            let functions = compiled(model).functions;
+            let found = functions.iter().find(|function| function_name(model, function.kind) == wanted);
+            found.map(|function| function.after).unwrap_or_default()
+        };
+        let chosen =
+            multibody_engine::chosen(&model).unwrap_or_else(|_| panic!("{} is refused", model.name)).into_owned();
+        let rates = Model { chooses_speeds: false, ..model };
+        InSpeeds {
+            model: rates.name.to_string(),
+            in_rates: cost(&rates, "forward_dynamics"),
+            in_speeds: cost(&chosen, "forward_dynamics"),
+            speeds: chosen.speeds.iter().map(|speed| speed.place.field.to_string()).collect(),
+            position_rates: cost(&chosen, "position_rates"),
+        }
+    };
+    calls("models/turning.rs").into_iter().flat_map(models).map(of).collect()
+}
+
 /// Additions, products, quotients and roots.
 pub fn flops(cost: &Cost) -> u32 {
     cost.add + cost.mul + cost.div + cost.sqrt

@@ -169,14 +169,15 @@ fn expand_by(
             continue;
         }
         if checked.state == Soundness::Sound {
-            let module = |(structure, compiled)| {
-                let module = guard("emit", || emit(model, &structure, &compiled))?;
-                Ok((module, structure))
-            };
-            match compile(model).and_then(|compiled| module(compiled).map_err(Trouble::Fault)) {
-                Ok((module, structure)) => {
+            let made = chosen(model).and_then(|chosen| {
+                let (structure, compiled) = compile(&chosen)?;
+                let module = guard("emit", || emit(&chosen, &structure, &compiled)).map_err(Trouble::Fault)?;
+                Ok((chosen, module, structure))
+            });
+            match made {
+                Ok((chosen, module, structure)) => {
                     modules.extend(module);
-                    let of_model = references.as_ref().map(|all| || emit::references::fields(all, model, &structure));
+                    let of_model = references.as_ref().map(|all| || emit::references::fields(all, &chosen, &structure));
                     fields.extend(of_model.and_then(|of_model| guard("emit", of_model).ok()));
                     continue;
                 }
@@ -215,8 +216,17 @@ fn hash(text: &str) -> u64 {
     text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3))
 }
 
-/// The stages behind the checked model.
+/// The model with the speeds that `speeds: Auto` stands for, from which all that follows goes on.
+pub fn chosen(model: &Model) -> Result<Cow<'_, Model>, Trouble> {
+    if !model.chooses_speeds {
+        return Ok(Cow::Borrowed(model));
+    }
+    guard("formulation", || formulation::with_speeds(model)).map(Cow::Owned).map_err(Trouble::Fault)
+}
+
+/// The stages behind the checked model. What is emitted is emitted of the [`chosen`] model.
 pub fn compile(model: &Model) -> Result<(Structure, Compiled), Trouble> {
+    let model = &*chosen(model)?;
     let (model, advice, (structure, compiled)) = settled(model, compile_as_written)?;
     let structure = Structure { advice: advice.map(Box::new), ..structure };
     Ok((

@@ -2,6 +2,7 @@
 
 mod blades;
 mod contacts;
+mod hinged;
 mod speeds;
 mod wheels;
 mod whipple;

@@ -175,24 +175,24 @@ multibody! {
 }
 
 /// Random numbers between -1 and 1, the same in every run.
-struct Random(u64);
+pub(crate) struct Random(pub(crate) u64);
 
 impl Random {
-    fn next(&mut self) -> f64 {
+    pub(crate) fn next(&mut self) -> f64 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         f64::from(u32::try_from(self.0 >> 33).unwrap()) / f64::from(1_u32 << 30) - 1.0
     }
 
-    fn vector<V: Tangent<f64>>(&mut self) -> V {
+    pub(crate) fn vector<V: Tangent<f64>>(&mut self) -> V {
         V::zero().map(&mut |_| self.next())
     }
 
-    fn turn(&mut self) -> UnitQuaternion<f64> {
+    pub(crate) fn turn(&mut self) -> UnitQuaternion<f64> {
         UnitQuaternion::from_scaled_axis(self.vector::<Vector3<f64>>() * 4.0)
     }
 }
 
-fn flat<V: Tangent<f64>>(vector: &V) -> Vec<f64> {
+pub(crate) fn flat<V: Tangent<f64>>(vector: &V) -> Vec<f64> {
     vector.fold(Vec::new(), &mut |mut list, x| {
         list.push(x);
         list
@@ -205,7 +205,7 @@ fn filled<V: Tangent<f64>>(list: &[f64]) -> V {
 }
 
 /// The state with these rates of positions, which the velocities have to be able to give.
-fn with_rates<S: System<Scalar = f64>>(system: &S, t: f64, state: &S::State, rates: &[f64]) -> S::State {
+pub(crate) fn with_rates<S: System<Scalar = f64>>(system: &S, t: f64, state: &S::State, rates: &[f64]) -> S::State {
     let (q, v, x) = state.split();
     let of = |v: VelocityOf<S>| DVector::from_vec(flat(&system.position_rates(t, &state.join(q, v, x))));
     let still = of(Tangent::zero());
@@ -220,7 +220,7 @@ fn with_rates<S: System<Scalar = f64>>(system: &S, t: f64, state: &S::State, rat
 }
 
 /// The derivatives of all rates, against differences; and what the slope is made of.
-fn derivatives_are_slopes<S, const W: usize>(system: &S, t: f64, state: &S::State, input: &S::Input)
+pub(crate) fn derivatives_are_slopes<S, const W: usize>(system: &S, t: f64, state: &S::State, input: &S::Input)
 where
     S: Differentiable<Scalar = f64, Matrix = FullJacobian<[[f64; W]; W]>>,
     <S::State as StateSpace>::Velocity: Tangent<f64>,
@@ -247,7 +247,7 @@ where
     }
 }
 
-fn agree(found: &[Vector3<f64>], wanted: &[Vector3<f64>]) {
+pub(crate) fn agree(found: &[Vector3<f64>], wanted: &[Vector3<f64>]) {
     let size = wanted.iter().fold(1.0_f64, |most, x| most.max(x.amax()));
     for (one, other) in found.iter().zip(wanted) {
         assert!((one - other).amax() < 1e-10 * size, "{one} {other}");

@@ -24,6 +24,16 @@ impl Cost {
         self.add + self.mul + self.compare + 8 * (self.div + self.sqrt) + 20 * (self.sincos + self.other)
     }
 
+    /// `12 add, 7 mul, 1 div`
+    pub fn words(&self) -> String {
+        let Cost { add, mul, div, sqrt, sincos, compare, other } = *self;
+        let other = compare + other;
+        let all = [(add, "add"), (mul, "mul"), (div, "div"), (sqrt, "sqrt"), (sincos, "sincos"), (other, "other")];
+        let some: Vec<String> =
+            all.iter().filter(|(count, _)| *count > 0).map(|(count, name)| format!("{count} {name}")).collect();
+        if some.is_empty() { "none".to_owned() } else { some.join(", ") }
+    }
+
     /// The sum of both.
     pub fn plus(self, other: Cost) -> Cost {
         Cost {

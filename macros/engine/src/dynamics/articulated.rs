@@ -201,8 +201,8 @@ fn inertia_to_parent(g: &mut Graph, tree: &Tree, link: &Link, inertia: &Articula
             inertia.turn(g, axis, cos, sin)
         }
         Motion::Prismatic(_) => *inertia,
-        Motion::Ball(quaternion) => {
-            let r = g.quaternion_rotation(quaternion);
+        Motion::Ball(orientation) => {
+            let r = orientation.rotation(g);
             inertia.rotate(g, r)
         }
     };

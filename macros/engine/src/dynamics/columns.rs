@@ -131,8 +131,8 @@ impl Turned {
         match link.motion {
             Motion::Revolute(axis) | Motion::Screw(axis, _) => next = next.about(g, axis, link.q),
             Motion::Prismatic(_) => {}
-            Motion::Ball(quaternion) => {
-                let r = g.quaternion_rotation(quaternion);
+            Motion::Ball(orientation) => {
+                let r = orientation.rotation(g);
                 next = next.placed(g, r);
             }
         }
@@ -144,8 +144,8 @@ impl Turned {
         let unturned = match link.motion {
             Motion::Revolute(axis) | Motion::Screw(axis, _) => self.about(g, axis, -link.q),
             Motion::Prismatic(_) => *self,
-            Motion::Ball(quaternion) => {
-                let r = g.quaternion_rotation(quaternion);
+            Motion::Ball(orientation) => {
+                let r = orientation.rotation(g);
                 self.placed(g, r.transpose())
             }
         };

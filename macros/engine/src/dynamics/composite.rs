@@ -58,9 +58,9 @@ pub(crate) fn composites(g: &mut Graph, tree: &Tree) -> Vec<Inertia> {
         let turned = match link.motion {
             Motion::Revolute(axis) | Motion::Screw(axis, _) => composites[index].turn(g, axis, link.q),
             Motion::Prismatic(_) => composites[index],
-            Motion::Ball(quaternion) => {
-                let r = g.quaternion_rotation(quaternion);
-                composites[index].rotate(g, r)
+            Motion::Ball(orientation) => {
+                let r = orientation.rotation(g);
+                composites[index].turned(g, r)
             }
         };
         let placed = turned.rotate(g, link.rotation);

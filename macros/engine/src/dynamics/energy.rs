@@ -89,7 +89,7 @@ fn outgoing(g: &mut Graph, link: &Link, parts: Vec<(Rotation, Vector)>, mass: Sc
             let length = g.mul(mass, link.q);
             (Rotation::IDENTITY, g.along(axis, length))
         }
-        Motion::Ball(quaternion) => (g.quaternion_rotation(quaternion), Vector::ZERO),
+        Motion::Ball(orientation) => (orientation.rotation(g), Vector::ZERO),
     };
     let mut parts = turned(g, turn, parts);
     parts.push((Rotation::IDENTITY, travel));

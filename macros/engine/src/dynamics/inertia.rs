@@ -5,10 +5,10 @@
 //! turn linearly and no centre of mass is divided by (Wensing, Kim and Slotine 2018 call the 4x4 matrix of all ten the
 //! pseudo-inertia), and what a joint's motion doesn't move can be handed to the parent (see [`super::regroup`]).
 
-use crate::symbolic::graph::{Graph, Rotation, Scalar, Vector};
+use crate::symbolic::graph::{Graph, Rotation, RotationNode, Scalar, Vector};
 
 /// Moments of a mass distribution in one frame.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Inertia {
     pub mass: Scalar,
     /// Mass times centre of mass.
@@ -127,6 +127,18 @@ impl Inertia {
             }
         }
         Inertia { mass: self.mass, first, second }
+    }
+
+    /// The same, one after the other where the rotation is a product.
+    pub fn turned(&self, g: &mut Graph, r: Rotation) -> Inertia {
+        match *g.rotation_node(r) {
+            RotationNode::Product(a, b) => {
+                let (first, second) = if r.is_transposed() { (a.transpose(), b.transpose()) } else { (b, a) };
+                self.turned(g, first).turned(g, second)
+            }
+            RotationNode::Axis(axis, angle) => self.turn(g, axis, if r.is_transposed() { -angle } else { angle }),
+            _ => self.rotate(g, r),
+        }
     }
 
     /// Components in a frame that sees this one turned about a coordinate axis. With A, C, B the entries xx, yy, xy of

@@ -2,7 +2,7 @@
 //!
 //! In: links. Out: a [`Tree`] of links, parents before children. Every joint of the language is
 //! a chain of four primitive motions, with massless links between: a revolute or prismatic motion along a coordinate
-//! axis, a screw, and a ball with a quaternion. A link's frame stands at its joint, moves with the link and is oriented so
+//! axis, a screw, and a ball. A link's frame stands at its joint, moves with the link and is oriented so
 //! that the motion's axis is a coordinate axis.
 
 use crate::symbolic::graph::{Graph, Rotation, Scalar, Vector};
@@ -16,8 +16,26 @@ pub enum Motion {
     Prismatic(usize),
     /// Axis, and metres per radian.
     Screw(usize, Scalar),
-    /// Orientation is a unit quaternion w, i, j, k; velocity is the angular velocity in the link's axes.
-    Ball([Scalar; 4]),
+    /// Velocity is the angular velocity in the link's axes.
+    Ball(Orientation),
+}
+
+/// How a ball is turned.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Orientation {
+    /// A unit quaternion w, i, j, k.
+    Quaternion([Scalar; 4]),
+    /// From the link's axes to those of the frame that the joint stands in.
+    Turn(Rotation),
+}
+
+impl Orientation {
+    pub fn rotation(self, g: &mut Graph) -> Rotation {
+        match self {
+            Orientation::Quaternion(quaternion) => g.quaternion_rotation(quaternion),
+            Orientation::Turn(rotation) => rotation,
+        }
+    }
 }
 
 impl Motion {
@@ -60,7 +78,7 @@ impl Link {
         match self.motion {
             Motion::Revolute(axis) | Motion::Screw(axis, _) => g.axis_rotation(axis, self.q),
             Motion::Prismatic(_) => Rotation::IDENTITY,
-            Motion::Ball(quaternion) => g.quaternion_rotation(quaternion),
+            Motion::Ball(orientation) => orientation.rotation(g),
         }
     }
 

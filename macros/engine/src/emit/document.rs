@@ -18,7 +18,6 @@ pub(super) mod unused;
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use crate::contracts::cost::Cost;
 use crate::contracts::function::FunctionKind;
 use crate::mechanics::loops::structure::Modes;
 use crate::model::joint_kinds::JointKind;
@@ -172,7 +171,7 @@ pub(super) fn new(compiled: &Compiled) -> Vec<String> {
     vec![
         "Does the work that depends on parameters alone.".to_string(),
         String::new(),
-        format!("Operations: {}.", cost(&compiled.prelude_cost)),
+        format!("Operations: {}.", compiled.prelude_cost.words()),
     ]
 }
 
@@ -228,7 +227,7 @@ fn work(layout: &Layout<'_>, function: &Function) -> Vec<String> {
     if !function.method.is_empty() {
         lines.extend([format!("Method: {}.", function.method), String::new()]);
     }
-    let (before, after) = (cost(&function.before), cost(&function.after));
+    let (before, after) = (function.before.words(), function.after.words());
     lines.push(format!("Operations: {after}; as derived, before optimisation: {before}."));
     if let Some([packed, scalar]) = packs::operations(&function.program) {
         lines.push(format!("Limbs go in packs of four: {packed} operations on packs, {scalar} on scalars."));
@@ -256,7 +255,7 @@ pub(super) fn new_at(layout: &Layout<'_>, at: &At) -> Vec<String> {
         String::new(),
         format!("Functions that go on from there: {}.", functions.collect::<Vec<_>>().join(", ")),
         String::new(),
-        format!("Operations: {}.", cost(&at.cost)),
+        format!("Operations: {}.", at.cost.words()),
     ]
 }
 
@@ -265,14 +264,4 @@ pub(super) fn of_at(layout: &Layout<'_>, function: &Function) -> Vec<String> {
     let mut lines = work(layout, function);
     lines.extend([String::new(), format!("The same as [`Model::{}`].", function.kind.method(layout.model))]);
     lines
-}
-
-/// `19 add, 28 mul, 1 div`
-pub(super) fn cost(cost: &Cost) -> String {
-    let Cost { add, mul, div, sqrt, sincos, compare, other } = *cost;
-    let other = compare + other;
-    let all = [(add, "add"), (mul, "mul"), (div, "div"), (sqrt, "sqrt"), (sincos, "sincos"), (other, "other")];
-    let some: Vec<String> =
-        all.iter().filter(|(count, _)| *count > 0).map(|(count, name)| format!("{count} {name}")).collect();
-    if some.is_empty() { "none".to_string() } else { some.join(", ") }
 }

@@ -1,6 +1,6 @@
 //! Stage `formulation`: what loops cost in one way and in another.
 //!
-//! In: a checked model. Out: what `constraints: Auto` stands for, and what is told of the choices. Forward dynamics decides: it is
+//! In: a checked model. Out: what `constraints: Auto` and `speeds: Auto` stand for, and what is told of the choices. Forward dynamics decides: it is
 //! derived with dependent coordinates eliminated and with multipliers, and both programs are counted with all rounds of iterations
 //! and with weights that are fitted to times ([`crate::optimize::effort`]). A closed form is taken where it costs about as much as
 //! multipliers, since then loops cannot drift; Newton's method only where it costs less.
@@ -9,6 +9,7 @@ mod assumable;
 mod closable;
 mod sides;
 mod solvable;
+mod speeds;
 mod wording;
 
 use crate::contracts::cost::Cost;
@@ -21,6 +22,8 @@ use crate::model::types::{Handling, Model, Request};
 use crate::optimize::effort::Effort;
 use crate::optimize::program::Compiled;
 use crate::optimize::{self, Refusal};
+
+pub use speeds::with_speeds;
 
 /// What `Auto` stands for, the better choice first, and why; without loops there is nothing to choose.
 pub fn choose(model: &Model) -> ([Handling; 2], Option<Advice>) {

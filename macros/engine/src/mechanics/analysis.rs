@@ -16,6 +16,7 @@ mod integrability;
 mod leaving;
 mod linear;
 mod measure;
+mod orthonormal;
 mod pinned;
 mod problem;
 mod rank;
@@ -51,6 +52,7 @@ pub use absorption::Hope;
 pub(super) use absorption::{Absorption, Poses};
 pub use closable::{Closable, Pose, closable};
 pub use relations::{Relation, relations};
+pub use speeds::clear_speeds;
 pub(super) use written::Writings;
 
 /// How far parameters are moved to see what holds at their defaults alone; relative to one and their size.

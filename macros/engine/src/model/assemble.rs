@@ -39,6 +39,8 @@ pub(super) struct Collected<'a> {
     pub(super) handling: Option<Handling>,
     pub(super) rounds: Option<usize>,
     pub(super) packs: Option<Packs>,
+    /// Where that is said.
+    pub(super) chooses_speeds: Option<Span>,
     pub(super) independent: Option<(&'a tree::Fields, ScopeId)>,
     pub(super) requested: Requested<'a>,
     /// `drive` and `solve`, which need to know what hangs on what.
@@ -112,9 +114,13 @@ impl<'a> Checker<'a, '_> {
             emit.push(Request::ForwardDynamics);
         }
         let output_groups = self.output_groups(&collected.requested.outputs, &outputs);
-        let mut skipped = topology.skipped;
-        skipped.extend(loops.skipped);
-        skipped.extend(self.settled_states());
+        if let (Some(span), false) = (collected.chooses_speeds, collected.speeds.is_empty()) {
+            let help = "leave `speeds: Auto` out, or the `speed` items";
+            self.report.help(span, "speeds are declared, and to be chosen too", help);
+        }
+        let mut remarks = topology.skipped;
+        remarks.extend(loops.skipped);
+        remarks.extend(self.settled_states());
         Some(Model {
             params: params.into(),
             inputs: inputs.into(),
@@ -131,8 +137,9 @@ impl<'a> Checker<'a, '_> {
             rounds: collected.rounds.unwrap_or(ROUNDS),
             packs: collected.packs.unwrap_or_default(),
             speeds: all(collected.speeds)?,
+            chooses_speeds: collected.chooses_speeds.is_some(),
             independent: loops.independent,
-            skipped,
+            remarks,
             small: loops.small,
             solve_for: collected.requested.solve_for,
             kinematics: loops.kinematics,
@@ -175,8 +182,9 @@ impl<'a> Checker<'a, '_> {
             rounds: ROUNDS,
             packs: Packs::default(),
             speeds: Vec::new(),
+            chooses_speeds: false,
             independent: Vec::new(),
-            skipped: Vec::new(),
+            remarks: Vec::new(),
             small: Vec::new(),
             solve_for: Vec::new(),
             kinematics: Vec::new(),
@@ -287,6 +295,7 @@ impl<'a> Checker<'a, '_> {
                 into.handling = into.handling.take().or(handling);
                 into.rounds = into.rounds.or(self.rounds(fields, scope));
                 into.packs = into.packs.or(self.packs(fields));
+                into.chooses_speeds = into.chooses_speeds.or(self.speed_choice(fields));
                 into.independent.get_or_insert((fields, scope));
             }
             ItemKind::Emit(requests) => self.emit(requests, scope, &mut into.requested),

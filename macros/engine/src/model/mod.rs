@@ -17,6 +17,7 @@ mod expand;
 pub mod exports;
 mod expressions;
 pub mod formulated;
+pub mod free_bodies;
 mod items;
 pub mod joint_kinds;
 pub(crate) mod names;

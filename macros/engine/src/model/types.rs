@@ -83,10 +83,13 @@ pub struct Model {
     pub packs: Packs,
     /// Velocity coordinates of the user's choice, in source order.
     pub speeds: Vec<Speed>,
+    /// They are to be chosen; nothing behind [`crate::formulation`] sees it.
+    pub chooses_speeds: bool,
     /// Coordinates that `formulation { independent: [..] }` names.
     pub independent: Vec<Coordinate>,
-    /// Said in the report: items that another choice of coordinates has made void, such as a `#[cut]` in the tree.
-    pub skipped: Vec<String>,
+    /// Said in the report: items that another choice of coordinates has made void, such as a `#[cut]` in the tree; choices that were made
+    /// for the user.
+    pub remarks: Vec<String>,
     /// Coordinates whose motion is taken to first order.
     pub small: Vec<Coordinate>,
     pub forces: IndexVec<ForceId, Force>,

@@ -40,9 +40,7 @@ impl Link {
                 let travel = g.mul(pitch, coordinate);
                 Link::Known { rotation: g.axis_rotation(axis, coordinate), offset: g.along(axis, travel) }
             }
-            Motion::Ball(quaternion) => {
-                Link::Known { rotation: g.quaternion_rotation(quaternion), offset: Vector::ZERO }
-            }
+            Motion::Ball(orientation) => Link::Known { rotation: orientation.rotation(g), offset: Vector::ZERO },
         }
     }
 

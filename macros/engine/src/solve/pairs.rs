@@ -5,7 +5,7 @@
 //! the rest of the cycle, and both must agree (Woernle 1988). With one group alone its points and directions are known
 //! on both sides of the unknown: the triangular part.
 
-use crate::dynamics::tree::Motion;
+use crate::dynamics::tree::{Motion, Orientation};
 use crate::symbolic::graph::{Graph, Scalar, ScalarNode, Vector};
 
 use super::chain::{Link, Side};
@@ -86,7 +86,7 @@ pub(super) struct Taken {
 impl<'c> Opened<'c> {
     /// A cycle as it is seen from several unknowns that are taken out together.
     pub(super) fn around(rest: &'c [Link]) -> Opened<'c> {
-        Opened { motion: Motion::Ball([Scalar::ZERO; 4]), rest, winding: None, counted: false }
+        Opened { motion: Motion::Ball(Orientation::Quaternion([Scalar::ZERO; 4])), rest, winding: None, counted: false }
     }
 
     /// All equations in this unknown alone.

@@ -100,7 +100,7 @@ pub fn model() -> Model {
     let reach = ExprNode::Coordinate { joint: JointId(6), index: 0, order: Order::Position };
     model.assumptions =
         vec![expr(ExprNode::Compare(Comparison::Greater, expr(reach, Type::Scalar), number(0.0)), Type::Bool)];
-    model.skipped = vec!["`#[cut]` on `legs[0].ball` says nothing new".to_string()];
+    model.remarks = vec!["`#[cut]` on `legs[0].ball` says nothing new".to_string()];
     model.solve_for = [1, 0].map(|input| SolveFor { input: InputId(input), element: 0, span }).to_vec();
     model.kinematics = vec![
         Kinematics { given: vec![JointId(0)], find: vec![coordinate(6, 0), coordinate(6, 1)], span },

@@ -5,6 +5,10 @@ use multibody_engine::mechanics::loops::constraints::coordinate_name;
 use multibody_engine::mechanics::loops::structure::Structure;
 use multibody_engine::model::types::{Coordinate, Model};
 
+use multibody_engine::model::types::Request;
+use multibody_engine::optimize::program::Compiled;
+use multibody_engine::{chosen, compile};
+
 use super::support::model_with;
 
 const ARM: &str = "body x { mass: 1.0, com: [0.5, 0.1, 0.2], inertia: diag(0.1, 0.2, 0.3) }
@@ -97,6 +101,10 @@ fn mistakes() {
         ),
         (format!("{ARM} speed u = 0.0 * a.rate;"), "the speed `u` is of velocities, but none of them has a say in it"),
         (
+            format!("{ARM} drive a = sin(t); speed u = 2.0 * a.rate;"),
+            "the speed `u` is of velocities that are given: none that is free has a say in it",
+        ),
+        (
             format!("{ARM} speed u = a.rate + b.rate;"),
             "1 speed doesn't determine the rates that it reads: `a.rate`, `b.rate`",
         ),
@@ -123,4 +131,111 @@ fn mistakes() {
     ] {
         assert_eq!(complaints(&items), told, "{items}");
     }
+}
+
+/// A body on three hinges, with what is between them to be named.
+const GIMBAL: &str = "world { gravity: [0.3, -0.2, -9.7] }
+     body cart { mass: 1.3 }
+     body one { mass: 0 }
+     body two { mass: 0 }
+     body top { mass: 2.0, com: [0.1, -0.05, 0.3], inertia: inertia(0.3, 0.4, 0.5, 0.01, 0.02, -0.03) }
+     joint slide: Prismatic { parent: ground, child: cart, axis: [1.0, 0.2, 0.1] }
+     joint first: Revolute { parent: cart.at([0.1, 0.2, 0.3]), child: one, axis: [0.3, 1.0, 0.2] }
+     joint second: Revolute { parent: one, child: two, axis: -[1.0, 0.1, -0.3] }
+     joint third: Revolute { parent: two, child: top.at([0.1, 0.05, -0.1]).rotated(Z, 0.8), axis: -Z }
+     let seen = top.rotated([1.0, -1.0, 2.0], 0.7);
+     let w = seen.express(top.angular_velocity - cart.angular_velocity);";
+
+const TURN: &str = "speed x = w.x; speed y = w.y; speed z = w.z;";
+
+fn built(items: &str) -> (Model, Structure, Compiled) {
+    let model = model_with("", items);
+    let model = chosen(&model).unwrap_or_else(|_| panic!("{items}")).into_owned();
+    let (structure, compiled) = compile(&model).unwrap_or_else(|_| panic!("{items}"));
+    (model, structure, compiled)
+}
+
+/// Additions and products of forward dynamics, which hold the rates of positions.
+fn operations(items: &str) -> u32 {
+    let compiled = built(items).2;
+    let cost = compiled.functions[0].after;
+    cost.add + cost.mul
+}
+
+/// Three speeds that are a turn make hinges about one point a ball, and then only.
+#[test]
+fn hinges_become_a_ball() {
+    let rates = operations(GIMBAL);
+    let ball = operations(&format!("{GIMBAL} {TURN}"));
+    assert!(ball + 40 < rates, "{ball} of {rates}");
+    let written = "speed x = seen.express(top.angular_velocity).x; speed y = seen.express(top.angular_velocity).y;
+         speed z = seen.express(top.angular_velocity).z;";
+    assert_eq!(operations(&format!("{GIMBAL} {written}")), ball);
+    let apart = GIMBAL.replace("child: two,", "child: two.at([0.0, 0.1, 0.0]),");
+    for other in [
+        format!("{GIMBAL} speed y = w.y; speed x = w.x; speed z = w.z;"),
+        format!("{GIMBAL} speed x = w.x; speed y = w.y; speed z = w.z + w.x;"),
+        format!(
+            "{GIMBAL} speed x = w.x; speed y = seen.rotated(X, 0.1).express(top.angular_velocity).y; speed z = w.z;"
+        ),
+        format!("{apart} {TURN}"),
+    ] {
+        assert!(operations(&other) > ball + 50, "{other}");
+    }
+}
+
+/// What is asked of hinges that a ball doesn't have stays known: forces between them, their rates, what acts on them.
+#[test]
+fn hinges_of_a_ball_stay_known() {
+    let read = "output loads = [first.reaction.force, third.reaction.moment]; output turning = two.angular_velocity;
+         output rates = [first.rate, second.accel]; force drag: Damper { joint: second, damping: 0.3 }
+         force load: Torque { at: one, axes: top, value: [0.1, 0.2, 0.3] }";
+    let (_, structure, _) =
+        built(&format!("{GIMBAL} {TURN} {read} emit forward_dynamics, energy, inverse_dynamics, mass_matrix;"));
+    assert_eq!(structure.rates.unknowns.len(), 3);
+}
+
+/// Never dearer than rates; what is chosen is told, with the rest.
+#[test]
+fn a_choice_by_counts() {
+    let automatic = "formulation { speeds: Auto }";
+    let (model, structure, compiled) = built(&format!("{GIMBAL} {automatic}"));
+    assert_eq!(names(&model, structure.speeds()), ["slide", "top_omega_x", "top_omega_y", "top_omega_z"]);
+    let cost = compiled.functions[0].after;
+    assert!(cost.add + cost.mul < operations(GIMBAL));
+    let [remark] = &model.remarks[..] else { panic!("{:?}", model.remarks) };
+    assert!(remark.starts_with("`speeds: Auto` takes turns of bodies about their own axes: "), "{remark}");
+    assert!(remark.contains("; rates of coordinates: ") && remark.contains("work "), "{remark}");
+    // Nothing turns freely: there is nothing to choose.
+    let (model, structure, _) = built(&format!("{ARM} {automatic}"));
+    assert!(model.remarks.is_empty() && model.speeds.is_empty() && !structure.has_speeds());
+    // A blade leaves the speed along it and the turn.
+    let sled = SLED.replace("Reduced", "Reduced, speeds: Auto").replace("[0.1, 0.2, 1.0]", "Z");
+    let (model, structure, _) = built(&format!("{sled} constraint blade = sled.express(sled.velocity).y;"));
+    assert_eq!(structure.speeds().len(), 2);
+    assert!(!model.speeds.is_empty() && model.emit == [Request::ForwardDynamics]);
+    // What is refused with speeds stays in rates.
+    let (model, _, _) = built(&format!("{GIMBAL} {automatic} emit forward_dynamics, momentum;"));
+    assert!(model.speeds.is_empty());
+}
+
+/// All parts of an array have the same speeds, under names that are free.
+#[test]
+fn choices_in_parts() {
+    let model = "mod limb {
+            port carrier: Frame;
+            body tail { mass: 0.2, com: [0.0, 0.1, 0.05], inertia: diag(0.01, 0.02, 0.03) }
+            body bob { mass: 0.2, com: [0.02, 0.1, 0.05], inertia: inertia(0.02, 0.025, 0.03, 0.001, 0.002, 0.003) }
+            joint hang: Ball { parent: carrier, child: bob, coordinates: RollPitchYaw }
+            joint bob_omega_x: Revolute { parent: bob, child: tail, axis: X }
+        }";
+    let items = "body base { mass: 1.0 } joint slide: Prismatic { parent: ground, child: base, axis: X }
+        part limbs: [limb; 2] = |k| limb { carrier: base.at(0.5 * k * Y) };
+        formulation { speeds: Auto }";
+    let model = model_with(model, items);
+    let model = chosen(&model).unwrap_or_else(|_| panic!("chosen"));
+    let names: Vec<String> = model.speeds.iter().map(|speed| speed.place.field.to_string()).collect();
+    println!("{:?}", model.remarks);
+    assert_eq!(names, ["bob_omega_x_", "bob_omega_y", "bob_omega_z", "bob_omega_x_", "bob_omega_y", "bob_omega_z"]);
+    assert!(compile(&model).is_ok());
 }

@@ -38,7 +38,7 @@ fn stewart_in_hybrid_coordinates() {
     assert_eq!(w.joint(m.tree[0]), "platform");
     assert_eq!(m.joints[m.tree[0]].kind, &joint_kinds::FREE_BY_ANGLES);
     assert!(matches!(m.handling, Handling::Reduced));
-    assert!(m.skipped.is_empty());
+    assert!(m.remarks.is_empty());
     assert_eq!(m.solves.len(), 6);
     let solve = &m.solves[2];
     let of = |name: &str, index| (format!("legs[2].{name}"), index);
@@ -58,10 +58,10 @@ fn stewart_in_absolute_and_joint_coordinates() {
         let m = stewart(&format!(", coordinates: Absolute({sequence})"));
         assert_eq!(counts(&m), (78, 72));
         assert_eq!((m.tree.len(), m.cuts.len()), (13, 18));
-        assert_eq!((m.solves.len(), m.skipped.len()), (0, 6));
+        assert_eq!((m.solves.len(), m.remarks.len()), (0, 6));
         let why = "`solve` of `legs[0].gimbal.first`, `legs[0].gimbal.second`, `legs[0].stroke`: with these \
                    coordinates the joint `legs[0].gimbal` closes a loop and has none";
-        assert_eq!(m.skipped[0], why);
+        assert_eq!(m.remarks[0], why);
     }
     let m = stewart(", coordinates: Joint");
     let w = Writer(&m);
@@ -69,7 +69,7 @@ fn stewart_in_absolute_and_joint_coordinates() {
     assert_eq!(names(&w, &m.cuts)[0], "legs[1].ball");
     assert_eq!(m.solves.len(), 5);
     assert_eq!(
-        m.skipped,
+        m.remarks,
         [
             "`#[cut]` of `legs[0].ball`: with these coordinates the joint lies in the tree",
             "`solve` of `legs[0].gimbal.first`, `legs[0].gimbal.second`, `legs[0].stroke`: with these coordinates the \

@@ -7,8 +7,8 @@ use crate::emit::Context;
 use crate::mechanics::loops::advice::{Advice, Assumable, Closing, Figures, Pivoted, Solvable};
 use crate::mechanics::loops::structure::Row;
 
+use super::alike;
 use super::loops::quoted;
-use super::{alike, cost};
 
 /// As many names are told.
 const MOST_NAMES: usize = 18;
@@ -62,7 +62,7 @@ fn amount(figures: &Figures) -> String {
         Closing::Newton => "by Newton's method with all its rounds",
         Closing::Multipliers => "with multipliers",
     };
-    format!("{} {how}, work {}", cost(&figures.operations), figures.work)
+    format!("{} {how}, work {}", figures.operations.words(), figures.work)
 }
 
 /// What becomes of equations with multipliers in forward dynamics.
@@ -148,6 +148,6 @@ fn line(text: &str, part: Option<&str>) -> String {
 }
 
 fn change(with: &Figures, own: &Figures) -> String {
-    let [now, before] = [with, own].map(|figures| cost(&figures.operations));
+    let [now, before] = [with, own].map(|figures| figures.operations.words());
     format!("{now} in place of {before}, work {} in place of {}", with.work, own.work)
 }

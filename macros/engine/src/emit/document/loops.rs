@@ -91,7 +91,7 @@ pub(super) fn items(context: &Context<'_>) -> Vec<String> {
     items.extend(listed(dropped).map(|names| format!("left out, since they follow from the other equations: {names}")));
     let assumed = model.assumptions.iter();
     items.extend(assumed.map(|condition| format!("assumed: {}", quoted(&formula::text(layout, condition)))));
-    items.extend(structure.notes.iter().chain(&model.skipped).cloned());
+    items.extend(structure.notes.iter().chain(&model.remarks).cloned());
     items.extend(advice::items(context));
     alike::once(items.iter().map(|item| item.replace('\n', " ")).collect())
 }

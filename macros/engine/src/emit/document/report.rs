@@ -12,7 +12,7 @@ use crate::model::types::Model;
 use crate::optimize::program::Compiled;
 
 use super::facts::{Declared, Facts, doc_text};
-use super::{alike, code, cost, equations, loops, unchecked};
+use super::{alike, code, equations, loops, unchecked};
 
 /// The report as a Markdown document.
 pub fn report(model: &Model, structure: &Structure, compiled: &Compiled) -> String {
@@ -65,16 +65,16 @@ pub(in crate::emit) fn lines(context: &Context<'_>) -> Vec<String> {
     lines.extend(equations::lines(layout));
     section(&mut lines, "Functions", &["function", "method", "operations", "as derived"], {
         let compiled = context.compiled;
-        let new = vec![String::new(), cost(&compiled.prelude_cost), String::new()];
+        let new = vec![String::new(), compiled.prelude_cost.words(), String::new()];
         let functions = facts.functions.iter().map(|&number| {
             let f = &compiled.functions[number];
-            row(&functions::name(layout.model, f.kind), vec![cell(f.method), cost(&f.after), cost(&f.before)])
+            row(&functions::name(layout.model, f.kind), vec![cell(f.method), f.after.words(), f.before.words()])
         });
         let at = compiled.at.iter().flat_map(|at| {
-            let own = row("at", vec![String::new(), cost(&at.cost), String::new()]);
+            let own = row("at", vec![String::new(), at.cost.words(), String::new()]);
             let functions = at.functions.iter().map(|f| {
                 let name = format!("at.{}", functions::name(layout.model, f.kind));
-                row(&name, vec![cell(f.method), cost(&f.after), cost(&f.before)])
+                row(&name, vec![cell(f.method), f.after.words(), f.before.words()])
             });
             std::iter::once(own).chain(functions)
         });

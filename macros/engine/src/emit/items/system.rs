@@ -75,7 +75,7 @@ fn position_rates(context: &Context<'_>) -> TokenStream {
     };
     let arguments = functions::arguments(function);
     let ([t, _], state) = (named(arguments), names::ident("state"));
-    let passed = if arguments.has_state() { arguments.pass() } else { quote!(&#state.q) };
+    let passed = arguments.pass();
     let input = input_type(layout);
     let (extra, x) = if layout.has_states() { (quote!(States<T>), quote!(rates.x)) } else { (quote!(()), quote!(())) };
     quote! {

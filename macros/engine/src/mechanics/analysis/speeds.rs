@@ -15,15 +15,19 @@ use crate::model::site::Sited;
 use crate::model::types::{Coordinate, Handling, Model, Request};
 
 use super::Complaint;
+use super::orthonormal::{complement, unit, without};
 use super::problem::{Point, Problem, Source};
 use super::rates::points;
-use super::singular::{add, dot};
+use super::singular::dot;
 use super::tape::Values;
 
 /// What is left of a row that depends on others, as a share of it.
 const DEPENDENT: f64 = 1e-9;
 /// Below this volume, at one of a few random poses, a pose where it vanishes is near.
 const POOR: f64 = 0.05;
+/// Of a speed that is offered as much has to be left by those before it, as a share of it, at a few random poses: less is as good as
+/// nothing, and what vanishes on surfaces alone, as hinges that fold do, is seldom that near.
+const CLEAR: f64 = 1e-3;
 /// As many choices are looked at; beyond that coordinates are taken one by one.
 const MOST_CHOICES: usize = 20_000;
 
@@ -73,6 +77,52 @@ pub(super) fn choose(model: &Model, problem: &Problem, structure: &mut Structure
     }
     structure.rates.speeds = speeds;
     Vec::new()
+}
+
+/// Of a model's speeds those to take, the clearest first: independent of the ones before them wherever loops and equations of velocities
+/// leave the mechanism. Nothing where the model is refused without any.
+pub fn clear_speeds(model: &Model) -> Option<Vec<usize>> {
+    let structure = super::analyse(&Model { speeds: Vec::new(), ..model.clone() }).ok()?;
+    let problem = Problem::new(model);
+    let points = points(&problem, &structure);
+    let choice = Choice { model, problem: &problem, structure: &structure, points: &points };
+    let mut values = Values::default();
+    // By point and speed: its components along motions that are left, and its length.
+    let mut seen: Vec<Vec<(Vec<f64>, f64)>> = Vec::new();
+    for point in &points {
+        let Some(rest) = choice.motions_at(point, false) else { continue };
+        let rows = problem.speeds_at(point, &mut values).into_iter().map(|row| {
+            let row = choice.dense(row);
+            let along: Vec<f64> = rest.iter().map(|unit| dot(unit, &row)).collect();
+            (along, dot(&row, &row).sqrt())
+        });
+        seen.push(rows.collect());
+    }
+    let mut taken: Vec<usize> = Vec::new();
+    let mut bases: Vec<Vec<Vec<f64>>> = vec![Vec::new(); seen.len()];
+    loop {
+        let share = |k: usize| {
+            let of = |(speeds, basis): (&Vec<(Vec<f64>, f64)>, &Vec<Vec<f64>>)| {
+                let left = without(speeds[k].0.clone(), basis);
+                if speeds[k].1 > 0.0 { dot(&left, &left).sqrt() / speeds[k].1 } else { 0.0 }
+            };
+            seen.iter().zip(&bases).map(of).fold(f64::INFINITY, f64::min)
+        };
+        let left = (0..model.speeds.len()).filter(|k| !taken.contains(k));
+        // The first of equal ones.
+        let best =
+            left.map(|k| (share(k), k)).reduce(|best, one| if one.0 > best.0 * (1.0 + DEPENDENT) { one } else { best });
+        let Some((_, k)) = best.filter(|best| best.0 > CLEAR && best.0.is_finite()) else { break };
+        for (speeds, basis) in seen.iter().zip(&mut bases) {
+            let mut left = without(speeds[k].0.clone(), basis);
+            let length = dot(&left, &left).sqrt();
+            left.iter_mut().for_each(|x| *x /= length);
+            basis.push(left);
+        }
+        taken.push(k);
+    }
+    taken.sort_unstable();
+    Some(taken)
 }
 
 /// What is asked for that is known in rates of coordinates alone.
@@ -134,18 +184,7 @@ impl Choice<'_> {
             let unit = (0..width).map(|k| if k == column { 1.0 } else { 0.0 }).collect();
             basis.push(unit);
         }
-        let before = basis.len();
-        // Of all coordinate directions the one of which most is left comes next.
-        while basis.len() < width {
-            let of = |column: usize| {
-                let unit = (0..width).map(|k| if k == column { 1.0 } else { 0.0 }).collect();
-                let left = without(unit, &basis);
-                (dot(&left, &left).sqrt(), left)
-            };
-            let (size, left) = (0..width).map(of).max_by(|a, b| a.0.total_cmp(&b.0))?;
-            basis.push(left.into_iter().map(|x| x / size).collect());
-        }
-        Some(basis.split_off(before))
+        Some(complement(&basis.iter().collect::<Vec<_>>(), width))
     }
 
     /// Equations of positions, eliminated ones of velocities, and speeds if they count, without what drives give.
@@ -164,12 +203,14 @@ impl Choice<'_> {
         if with_speeds {
             all.extend(problem.speeds_at(point, &mut values));
         }
-        let dense = |row: Vec<(usize, f64)>| {
-            let mut dense = vec![0.0; problem.columns.len()];
-            row.into_iter().filter(|x| !self.is_driven(x.0)).for_each(|(column, x)| dense[column] += x);
-            dense
-        };
-        all.into_iter().map(dense).collect()
+        all.into_iter().map(|row| self.dense(row)).collect()
+    }
+
+    /// By all columns, without what drives give.
+    fn dense(&self, row: Vec<(usize, f64)>) -> Vec<f64> {
+        let mut dense = vec![0.0; self.problem.columns.len()];
+        row.into_iter().filter(|x| !self.is_driven(x.0)).for_each(|(column, x)| dense[column] += x);
+        dense
     }
 
     fn is_driven(&self, column: usize) -> bool {
@@ -217,28 +258,38 @@ impl Choice<'_> {
 
     /// The first speed that depends on what stands before it.
     fn dependent_speeds(&self) -> Complaint {
-        let first = (1..=self.model.speeds.len()).find(|&count| {
-            let depends = |point: &Point| {
-                let mut rows = self.rows_at(point, true);
-                rows.truncate(rows.len() - self.model.speeds.len() + count);
-                let Some(last) = rows.pop() else { return false };
-                let mut basis: Vec<Vec<f64>> = Vec::new();
-                for row in rows {
-                    let left = without(row, &basis);
-                    let size = dot(&left, &left).sqrt();
-                    if size > 0.0 {
-                        basis.push(left.into_iter().map(|x| x / size).collect());
-                    }
+        let model = self.model;
+        let count = model.speeds.len();
+        // What is left of a speed behind the rows before it, and its length.
+        let left = |point: &Point, number: usize| {
+            let mut rows = self.rows_at(point, true);
+            rows.truncate(rows.len() - count + number + 1);
+            let Some(last) = rows.pop() else { return (0.0, 0.0) };
+            let mut basis: Vec<Vec<f64>> = Vec::new();
+            for row in rows {
+                let mut left = without(row, &basis);
+                if unit(&mut left).is_some_and(|length| length > 0.0) {
+                    basis.push(left);
                 }
-                let size = dot(&last, &last).sqrt();
-                let left = without(last, &basis);
-                dot(&left, &left).sqrt() <= DEPENDENT * size
-            };
-            self.points.iter().all(depends)
-        });
-        let speed = &self.model.speeds[first.unwrap_or(1) - 1];
-        let message = format!("the speed `{}` follows from other speeds and from the constraints", speed.place.field);
-        Complaint { at: speed.site(), message, help: Some("speeds have to be independent of each other".to_owned()) }
+            }
+            let size = dot(&last, &last).sqrt();
+            let left = without(last, &basis);
+            (dot(&left, &left).sqrt(), size)
+        };
+        let everywhere =
+            |number: usize, is: fn((f64, f64)) -> bool| self.points.iter().all(|point| is(left(point, number)));
+        let first = (0..count).find(|&number| everywhere(number, |(left, size)| left <= DEPENDENT * size)).unwrap_or(0);
+        let name = coordinate_name(model, model.coordinate_of(first));
+        let (message, help) = match everywhere(first, |(_, size)| size == 0.0) {
+            true => {
+                (format!("the speed `{name}` is of velocities that are given: none that is free has a say in it"), None)
+            }
+            false => (
+                format!("the speed `{name}` follows from other speeds and from the constraints"),
+                Some("speeds have to be independent of each other".to_owned()),
+            ),
+        };
+        Complaint { at: model.speeds[first].site(), message, help }
     }
 
     fn too_few(&self) -> Complaint {
@@ -256,15 +307,6 @@ impl Choice<'_> {
         let at = self.model.speeds.last().map_or(self.model.site(), Sited::site);
         Complaint { at, message, help: Some(help.to_owned()) }
     }
-}
-
-/// Less what lies along unit rows; twice, for the digits that the first time has lost.
-fn without(mut row: Vec<f64>, basis: &[Vec<f64>]) -> Vec<f64> {
-    for unit in basis.iter().chain(basis) {
-        let along = dot(&row, unit);
-        add(&mut row, -along, unit);
-    }
-    row
 }
 
 /// So many of `among`, those that are wished for first, with the greatest volume, and that; the first of equal ones. Nothing where it

@@ -61,6 +61,17 @@ impl<'m> Deriving<'m> {
             Ok(results)
         };
         let mut candidates = self.in_all_axes(&METHODS[0].1, Method::Composite, &kept, all)?;
+        if self.structure.has_speeds() && kept.is_empty() {
+            let way = Choices { method: Method::Articulated, ..self.way() };
+            candidates.extend(self.maybe(way, |e| {
+                let reduction = e.reduce()?;
+                let Some(accelerations) = e.accelerations_on_balls(&reduction) else { return Ok(None) };
+                let solved = ConstrainedMotion { accelerations, multipliers: Vec::new(), rank: None };
+                let rates: Vec<Scalar> = model.states.iter().map(|state| e.scalar(&state.rate)).collect();
+                let rates = e.put_in_all(&reduction, &solved, &rates);
+                Ok(Some((METHODS[1].1[0], solved.results(rates, e.moved(&reduction)))))
+            })?);
+        }
         for at in 0..MOST_STRUT_WAYS {
             let found = self.maybe(self.way(), |e| {
                 let reduction = e.reduce()?;

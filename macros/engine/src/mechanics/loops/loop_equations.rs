@@ -5,7 +5,7 @@
 //! are, unknown ones keep the symbols of their coordinates as placeholders. A motion that is walked against its sense is
 //! the same motion about the opposite axis: turned by half a turn before and after.
 
-use crate::dynamics::tree::{Link, Motion};
+use crate::dynamics::tree::{Link, Motion, Orientation};
 use crate::mechanics::equations::Equations;
 use crate::mechanics::translate::build::FixedFrame;
 use crate::mechanics::translate::symbols::UNWANTED;
@@ -66,10 +66,10 @@ impl Equations<'_> {
                 let length = self.scalar(length);
                 let common = self.common(from.link, to.link);
                 self.outwards_to(&from, common, unknowns, &mut cycle);
-                cycle.push(self.unwanted(Motion::Ball([Scalar::ZERO; 4]), own));
+                cycle.push(self.unwanted(Motion::Ball(Orientation::Quaternion([Scalar::ZERO; 4])), own));
                 let offset = self.g.along(0, length);
                 cycle.push(Segment::Fixed { rotation: Rotation::IDENTITY, offset });
-                cycle.push(self.unwanted(Motion::Ball([Scalar::ZERO; 4]), own + 3));
+                cycle.push(self.unwanted(Motion::Ball(Orientation::Quaternion([Scalar::ZERO; 4])), own + 3));
                 self.back_from(&to, common, unknowns, &mut cycle);
             }
         }
@@ -151,7 +151,7 @@ impl Equations<'_> {
         if kind.turns_freely() {
             // What is free closes nothing.
             if !kind.is_free() {
-                cycle.push(self.unwanted(Motion::Ball([Scalar::ZERO; 4]), own));
+                cycle.push(self.unwanted(Motion::Ball(Orientation::Quaternion([Scalar::ZERO; 4])), own));
             }
             return;
         }

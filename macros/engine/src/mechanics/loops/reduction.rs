@@ -218,6 +218,12 @@ impl Equations<'_> {
         symbols.velocities.iter().flatten().copied().chain(symbols.speeds.iter().map(|speed| speed[0])).collect()
     }
 
+    /// Their rates.
+    pub(in crate::mechanics) fn all_accelerations(&self) -> Vec<Scalar> {
+        let symbols = &self.scene.symbols;
+        symbols.accelerations.iter().flatten().copied().chain(symbols.speeds.iter().map(|speed| speed[1])).collect()
+    }
+
     /// A map from symbols to what replaces them.
     pub(in crate::mechanics) fn map(&self, pairs: &[(Scalar, Scalar)]) -> Map {
         pairs.iter().filter_map(|&(symbol, value)| Some((self.g.symbol_id(symbol)?, value))).collect()
@@ -393,7 +399,7 @@ impl Equations<'_> {
     /// map, by reverse accumulation through the rates, so that what several dependents share is passed on once.
     pub(in crate::mechanics) fn project(&mut self, reduction: &Reduction, efforts: &[Scalar]) -> Vec<Scalar> {
         let mut projected = efforts.to_vec();
-        projected.resize(efforts.len() + self.scene.symbols.speeds.len(), Scalar::ZERO);
+        projected.resize(self.scene.symbols.places(), Scalar::ZERO);
         if reduction.rates.is_empty() {
             return projected;
         }

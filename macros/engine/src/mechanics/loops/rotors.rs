@@ -50,7 +50,7 @@ impl Equations<'_> {
 
     /// J g g^T, added to a mass matrix of the user's coordinates, row by row.
     pub(in crate::mechanics) fn add_rotors(&mut self, matrix: &mut [Scalar]) {
-        let size = self.scene.symbols.freedoms;
+        let size = self.scene.symbols.places();
         for rotor in self.rotors().iter() {
             for &(i, a) in &rotor.slopes {
                 for &(j, b) in &rotor.slopes {

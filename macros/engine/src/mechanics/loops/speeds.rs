@@ -10,65 +10,108 @@
 //! follows here is put into them.
 
 use crate::mechanics::equations::Equations;
+use crate::model::types::Coordinate;
 use crate::symbolic::differentiate::Differentiator;
 use crate::symbolic::graph::Scalar;
 
 use super::reduction::{Definition, Map, Reduction};
 
+/// Rates and accelerations that were found, on the tree.
+#[derive(Default)]
+struct Followed {
+    unknowns: Vec<Coordinate>,
+    values: Vec<[Scalar; 2]>,
+}
+
+impl Followed {
+    fn add(&mut self, unknowns: &[Coordinate], rates: &[Scalar], accelerations: &[Scalar]) {
+        self.unknowns.extend(unknowns);
+        self.values.extend(rates.iter().zip(accelerations).map(|(&rate, &acceleration)| [rate, acceleration]));
+    }
+}
+
 impl Equations<'_> {
     /// Adds the rates that are no velocity coordinates. `rates` are those of dependents in rates of the state, on the tree.
     pub(super) fn follow_speeds(&mut self, reduction: &mut Reduction, rates: &Map) {
+        let mechanism = std::rc::Rc::clone(&self.scene.mechanism);
         let structure = std::rc::Rc::clone(&self.scene.structure);
-        let unknowns: Vec<[Scalar; 2]> =
-            structure.rates.unknowns.iter().map(|&unknown| self.velocity_symbols(unknown)).collect();
-        let equations = self.equations_of_speeds();
         let accelerations = self.accelerations_of_dependents(reduction);
-        let rest = |order: usize| unknowns.iter().map(move |symbols| (symbols[order], Scalar::ZERO));
+        let (mut all, mut volumes) = (Followed::default(), Vec::new());
+        for ball in &mechanism.balls {
+            let (first, second, volume) = self.hinge_rates(ball);
+            volumes.push(volume);
+            all.add(&ball.hinges, &first, &second);
+        }
+        let hinged = all.unknowns.clone();
+        let unknowns: Vec<Coordinate> =
+            structure.rates.unknowns.iter().copied().filter(|unknown| !hinged.contains(unknown)).collect();
+        let symbols: Vec<[Scalar; 2]> = unknowns.iter().map(|&unknown| self.velocity_symbols(unknown)).collect();
+        let known = [0, 1].map(|order| self.map(&self.pairs(&all, order)));
+        let equations = self.equations_of_speeds();
+        let rest = |order: usize| symbols.iter().map(move |symbols| (symbols[order], Scalar::ZERO));
         let (at_rest, unaccelerated) = (self.map(&rest(0).collect::<Vec<_>>()), self.map(&rest(1).collect::<Vec<_>>()));
         let (mut matrix, mut first, mut second) = (Vec::new(), Vec::new(), Vec::new());
         for (rate, acceleration) in equations {
             let rate = self.g.substitute(&[rate], rates)[0];
-            matrix.extend(unknowns.iter().map(|symbols| self.g.derivative(rate, &[(symbols[0], Scalar::ONE)])));
+            let rate = self.g.substitute(&[rate], &known[0])[0];
+            matrix.extend(symbols.iter().map(|symbols| self.g.derivative(rate, &[(symbols[0], Scalar::ONE)])));
             first.push(-self.g.substitute(&[rate], &at_rest)[0]);
             let acceleration = self.g.substitute(&[acceleration], &accelerations)[0];
+            let acceleration = self.g.substitute(&[acceleration], &known[1])[0];
             second.push(-self.g.substitute(&[acceleration], &unaccelerated)[0]);
         }
-        let size = unknowns.len();
-        let [first, second] = self.solve_rates(size, &matrix, [&first, &second], Self::eliminate_strictly);
-        let of = |order: usize, values: &[Scalar]| {
-            unknowns.iter().map(|symbols| symbols[order]).zip(values.iter().copied()).collect::<Vec<_>>()
-        };
-        reduction.matrices.push(matrix);
+        if !unknowns.is_empty() {
+            let [first, second] =
+                self.solve_rates(unknowns.len(), &matrix, [&first, &second], Self::eliminate_strictly);
+            all.add(&unknowns, &first, &second);
+        }
+        // One margin for all of them.
+        reduction.matrices.push(beside(&volumes, &matrix, unknowns.len()));
         // Rates with positions on the tree, by which efforts are projected.
-        let on_tree = self.map(&of(0, &first));
+        let on_tree = self.map(&self.pairs(&all, 0));
         for at in 0..reduction.rates.len() {
             let rate = reduction.rates[at].1;
             reduction.rates[at].1 = self.g.substitute(&[rate], &on_tree)[0];
         }
-        for ((&coordinate, &rate), &acceleration) in structure.rates.unknowns.iter().zip(&first).zip(&second) {
-            reduction.rates.push((self.freedom(coordinate), rate));
+        for (&coordinate, [rate, acceleration]) in all.unknowns.iter().zip(&all.values) {
             let [position, ..] = self.coordinate_symbols(coordinate);
+            let (rate, acceleration) = (*rate, *acceleration);
+            reduction.rates.push((self.freedom(coordinate), rate));
             reduction.followed.push(Definition { coordinate, position, rate, acceleration });
         }
         // The same finished: first rates, which accelerations are written with. What is not read any more is in the map all the same, so
         // that no older node is found in which it cancels.
-        reduction.map.extend(at_rest.iter().chain(&unaccelerated).map(|(&id, &zero)| (id, zero)));
+        for order in [0, 1] {
+            let still =
+                self.pairs(&all, order).into_iter().map(|(symbol, _)| (symbol, Scalar::ZERO)).collect::<Vec<_>>();
+            reduction.map.extend(self.map(&still));
+        }
         let mut found = Map::new();
-        for (order, values) in [first, second].iter().enumerate() {
-            let values = self.finish(reduction, values);
-            found.extend(self.map(&of(order, &values)));
+        for order in [0, 1] {
+            let pairs = self.pairs(&all, order);
+            let (of, values): (Vec<Scalar>, Vec<Scalar>) = pairs.into_iter().unzip();
+            let values = self.finish(reduction, &values);
+            found.extend(self.map(&of.into_iter().zip(values).collect::<Vec<_>>()));
             self.put_into_definitions(reduction, &found);
             reduction.map.extend(found.iter().map(|(&id, &value)| (id, value)));
         }
     }
 
-    /// Equations of velocities, and those of speeds, u - (U v + c), with their rates; on the tree.
+    /// Symbols of rates, or of accelerations, with their values.
+    fn pairs(&self, followed: &Followed, order: usize) -> Vec<(Scalar, Scalar)> {
+        let symbols = followed.unknowns.iter().map(|&unknown| self.velocity_symbols(unknown)[order]);
+        symbols.zip(followed.values.iter().map(|values| values[order])).collect()
+    }
+
+    /// Equations of velocities, and those of speeds, u - (U v + c), but for speeds of balls, with their rates; on the tree.
     fn equations_of_speeds(&mut self) -> Vec<(Scalar, Scalar)> {
         let structure = std::rc::Rc::clone(&self.scene.structure);
         let mut equations: Vec<(Scalar, Scalar)> =
             structure.rates.rows.iter().map(|&row| self.row_rates(row)).collect();
         let model = self.scene.model;
-        for (number, speed) in model.speeds.iter().enumerate() {
+        let balls = &self.scene.mechanism.balls;
+        let of_balls: Vec<usize> = balls.iter().flat_map(|ball| ball.speed..ball.speed + 3).collect();
+        for (number, speed) in model.speeds.iter().enumerate().filter(|(number, _)| !of_balls.contains(number)) {
             let value = self.scalar(&speed.value);
             let seeds = self.seeds(2);
             let rate = Differentiator::new(&seeds).scalar(&mut self.g, value);
@@ -104,4 +147,17 @@ impl Equations<'_> {
         let values = self.g.substitute(&values, found);
         reduction.map.extend(open.into_iter().map(|entry| entry.0).zip(values));
     }
+}
+
+/// A matrix of this size with numbers in front of it on the diagonal, row by row.
+fn beside(diagonal: &[Scalar], matrix: &[Scalar], size: usize) -> Vec<Scalar> {
+    let (first, whole) = (diagonal.len(), diagonal.len() + size);
+    let mut entries = vec![Scalar::ZERO; whole * whole];
+    for (k, &entry) in diagonal.iter().enumerate() {
+        entries[k * whole + k] = entry;
+    }
+    for (k, &entry) in matrix.iter().enumerate() {
+        entries[(first + k / size) * whole + first + k % size] = entry;
+    }
+    entries
 }

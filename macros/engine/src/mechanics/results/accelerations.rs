@@ -28,7 +28,7 @@ impl Equations<'_> {
         }
         if self.derives_forces() {
             // Forces that depend on accelerations are refused by the checker.
-            return vec![Scalar::ZERO; self.scene.symbols.freedoms].into();
+            return vec![Scalar::ZERO; self.scene.symbols.places()].into();
         }
         if self.is_constrained() {
             return self.tree_accelerations();
@@ -40,7 +40,7 @@ impl Equations<'_> {
 
     /// Symbols of all coordinates of the tree.
     fn tree_accelerations(&mut self) -> Rc<[Scalar]> {
-        let accelerations: Rc<[Scalar]> = self.scene.symbols.accelerations.concat().into();
+        let accelerations: Rc<[Scalar]> = self.all_accelerations().into();
         self.caches.accelerations.list = Some(Rc::clone(&accelerations));
         if let Some(reduction) = self.reduced.clone() {
             let solved = self.solve_constrained(&reduction);

@@ -25,7 +25,7 @@ impl Equations<'_> {
         let inertias = composites(&mut self.g, tree);
         let carrying: Vec<usize> = tree.support(carrier).collect();
         let mut places = Columns::new(carrier, Rotation::IDENTITY);
-        let freedoms = self.scene.symbols.freedoms;
+        let freedoms = self.scene.symbols.places();
         let mut rows: [Vec<Scalar>; 6] = std::array::from_fn(|_| vec![Scalar::ZERO; freedoms]);
         for (index, link) in tree.links.iter().enumerate() {
             for (freedom, twist) in tree.twists(link).into_iter().filter(|column| column.0 < freedoms) {

@@ -158,7 +158,7 @@ impl Equations<'_> {
 
     /// The same before definitions are put in: dependent coordinates are symbols.
     pub(in crate::mechanics) fn mass_matrix_on_tree(&mut self, reduction: &Reduction) -> Vec<Vec<Scalar>> {
-        let n = self.scene.symbols.freedoms;
+        let n = self.scene.symbols.places();
         let entries = self.mass_matrix();
         let matrix: Vec<&[Scalar]> = entries.chunks(n.max(1)).collect();
         let speeds = self.speeds();
@@ -194,7 +194,7 @@ impl Equations<'_> {
 
     /// How velocities of the tree, of which these follow, change with those at some places.
     pub(in crate::mechanics) fn map_by(&mut self, rates: &[(usize, Scalar)], places: &[usize]) -> Vec<Vec<Scalar>> {
-        let n = self.scene.symbols.freedoms;
+        let n = self.scene.symbols.places();
         let mut map = vec![vec![Scalar::ZERO; places.len()]; n];
         let velocities = self.all_velocities();
         for (j, &freedom) in places.iter().enumerate() {
@@ -338,7 +338,8 @@ impl Equations<'_> {
         let speeds = self.speeds();
         let order = self.scene.mechanism.elimination(self.scene.way.method == Method::Floating);
         let chosen = self.scene.symbols.freedoms..self.scene.symbols.freedoms + self.scene.symbols.speeds.len();
-        order.into_iter().chain(chosen).filter_map(|freedom| speeds.iter().position(|&k| k == freedom)).collect()
+        let others = chosen.filter(|place| !order.contains(place)).collect::<Vec<_>>();
+        order.into_iter().chain(others).filter_map(|freedom| speeds.iter().position(|&k| k == freedom)).collect()
     }
 
     /// Residuals of the equations with multipliers.

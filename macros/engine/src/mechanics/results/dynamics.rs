@@ -22,7 +22,7 @@ impl Equations<'_> {
         let mechanism = Rc::clone(&self.scene.mechanism);
         let list = self.efforts(&mechanism.tree.acceleration, case);
         let mut efforts = mechanism.sign(&list);
-        let accelerations = self.scene.symbols.accelerations.concat();
+        let accelerations = self.all_accelerations();
         self.add_rotor_efforts(&mut efforts, &accelerations);
         efforts
     }
@@ -51,7 +51,7 @@ impl Equations<'_> {
         let wrenches = transmitted(g, tree, &motions, &applied);
         let needed = efforts(g, tree, &wrenches, acceleration);
         let rest = needed.iter().zip(&loads.efforts).map(|(&needed, &given)| g.sub(needed, given));
-        rest.take(self.scene.symbols.freedoms).collect()
+        rest.take(self.scene.symbols.places()).collect()
     }
 
     /// The same over groups of links.
@@ -62,7 +62,7 @@ impl Equations<'_> {
         let g = &mut self.g;
         let needed = lumped::efforts(g, &tree, acceleration, base, &loads.applied, &loads.world);
         let rest = needed.iter().zip(&loads.efforts).map(|(&needed, &given)| g.sub(needed, given));
-        rest.take(self.scene.symbols.freedoms).collect()
+        rest.take(self.scene.symbols.places()).collect()
     }
 
     /// Row by row.

@@ -24,11 +24,11 @@ impl Equations<'_> {
         let mut own = Columns::new(axes.link, axes.rotation.transpose());
         let g = &mut self.g;
         let columns = if plain { &mut self.caches.world } else { &mut own };
-        let mut rows: [Vec<Scalar>; 6] = std::array::from_fn(|_| vec![Scalar::ZERO; self.scene.symbols.freedoms]);
+        let mut rows: [Vec<Scalar>; 6] = std::array::from_fn(|_| vec![Scalar::ZERO; self.scene.symbols.places()]);
         let point = columns.point(g, tree, place.link, place.offset);
         for index in tree.support(place.link) {
             let link = &tree.links[index];
-            if link.freedom >= self.scene.symbols.freedoms {
+            if link.freedom >= self.scene.symbols.places() {
                 continue;
             }
             let turned = columns.of(g, tree, Some(index));

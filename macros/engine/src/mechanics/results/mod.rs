@@ -4,6 +4,7 @@
 pub(super) mod accelerations;
 pub(super) mod actuation;
 pub(super) mod assembly;
+pub(super) mod balls;
 pub(super) mod centroidal;
 pub(super) mod constrained;
 pub(super) mod constraint_forces;

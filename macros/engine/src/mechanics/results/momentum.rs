@@ -127,7 +127,7 @@ impl Equations<'_> {
 
     fn of_user(&self, list: &[Scalar]) -> Vec<Scalar> {
         let mut list = self.scene.mechanism.sign(list);
-        list.truncate(self.scene.symbols.freedoms);
+        list.truncate(self.scene.symbols.places());
         list
     }
 }

@@ -46,7 +46,7 @@ impl Equations<'_> {
         let passed = pass(&weightless, &still, &still, Vector::ZERO, &loads.applied);
         let direct = mechanism.sign(&loads.efforts);
         let forces = direct.iter().zip(&passed).map(|(&direct, &passed)| self.g.sub(direct, passed)).collect();
-        let accelerations = self.scene.symbols.accelerations.concat();
+        let accelerations = self.all_accelerations();
         self.add_rotor_efforts(&mut inertial, &accelerations);
         Parts { inertial, gravity, forces }
     }

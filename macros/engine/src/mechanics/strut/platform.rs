@@ -9,7 +9,7 @@
 use std::rc::Rc;
 
 use crate::contracts::results::{Results, Slot};
-use crate::dynamics::tree::{Motion, Tree};
+use crate::dynamics::tree::{Motion, Orientation, Tree};
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::reduction::{Map, Reduction};
 use crate::mechanics::loops::structure::{Means, Role};
@@ -100,9 +100,9 @@ impl Equations<'_> {
         for at in mechanism.tree.path(None, Some(link)) {
             let q = tree.links[at].q;
             tree.links[at].q = self.finish(reduction, &[q])[0];
-            if let Motion::Ball(quaternion) = tree.links[at].motion {
+            if let Motion::Ball(Orientation::Quaternion(quaternion)) = tree.links[at].motion {
                 let quaternion = self.finish(reduction, &quaternion);
-                tree.links[at].motion = Motion::Ball([0, 1, 2, 3].map(|k| quaternion[k]));
+                tree.links[at].motion = Motion::Ball(Orientation::Quaternion([0, 1, 2, 3].map(|k| quaternion[k])));
             }
         }
         let mut carrier = Carrier::of(&mut self.g, &tree, link, &legs)?;

@@ -12,6 +12,7 @@ use crate::model::types::{Body, BodyRef, Frame, FrameStep, Joint, JointId};
 use crate::symbolic::graph::{Graph, Rotation, Scalar, Vector};
 use crate::symbolic::rotations;
 
+use super::balls::HingedBall;
 use super::chain::Chain;
 use super::{directions, names, typed};
 
@@ -50,7 +51,8 @@ pub struct JointLinks {
 /// The tree, and where the model's things stand on it.
 #[derive(Clone, Debug, Default)]
 pub struct Mechanism {
-    /// Its coordinates are those of the user up to signs. Behind them stand the unmoving coordinates of `Fixed` joints
+    /// Its coordinates are those of the user up to signs, then speeds of the user's choice. Behind them stand the unmoving coordinates of
+    /// `Fixed` joints
     /// that were kept for their reactions.
     pub tree: Tree,
     /// By body.
@@ -59,6 +61,8 @@ pub struct Mechanism {
     pub joints: Vec<JointLinks>,
     /// By velocity coordinate: the tree's is minus the user's, since the axis is a negative coordinate axis.
     pub flipped: Vec<bool>,
+    /// Balls on hinges, whose velocities are speeds of the user's choice.
+    pub balls: Vec<HingedBall>,
 }
 
 impl Mechanism {
@@ -99,8 +103,7 @@ impl Equations<'_> {
     /// Builds the tree.
     pub(in crate::mechanics) fn build(&mut self) -> Mechanism {
         let model = self.scene.model;
-        let velocity: Vec<Scalar> = self.scene.symbols.velocities.concat();
-        let acceleration: Vec<Scalar> = self.scene.symbols.accelerations.concat();
+        let (velocity, acceleration) = (self.all_velocities(), self.all_accelerations());
         let mut mechanism = Mechanism {
             bodies: vec![FixedFrame::GROUND; model.bodies.len()],
             joints: vec![JointLinks::default(); model.joints.len()],
@@ -113,6 +116,7 @@ impl Equations<'_> {
             let kept = self.scene.kept.contains(&id);
             self.attach(&mut mechanism, id, &model.joints[id], kept);
         }
+        self.merge_hinges(&mut mechanism);
         for (body, place) in model.bodies.iter().zip(mechanism.bodies.clone()) {
             self.load(&mut mechanism.tree, body, place);
         }

@@ -6,7 +6,7 @@
 //! these become when any other axis is turned into place (see [`directions::axis`]).
 
 use crate::dynamics::inertia::Inertia;
-use crate::dynamics::tree::{Link, Motion};
+use crate::dynamics::tree::{Link, Motion, Orientation};
 use crate::invariant::injection::{Break, broken};
 use crate::mechanics::equations::Equations;
 use crate::model::joint_kinds;
@@ -89,7 +89,7 @@ impl Equations<'_> {
         }
         if kind.has_quaternion() {
             let start = kind.turning().start;
-            let motion = Motion::Ball([0, 1, 2, 3].map(|k| q(start + k)));
+            let motion = Motion::Ball(Orientation::Quaternion([0, 1, 2, 3].map(|k| q(start + k))));
             let axis = Axis::coordinate(0);
             chain.push(&mut self.g, "", &Step { axis, motion, freedom: first + start, q: Scalar::ZERO });
         }

@@ -55,6 +55,11 @@ impl Dependencies {
         Dependencies { frames: true, ..Dependencies::default() }
     }
 
+    /// Joints whose reactions are asked for.
+    pub(in crate::mechanics) fn reactions(&self) -> &[JointId] {
+        &self.reactions
+    }
+
     /// `Fixed` joints whose reactions are asked for.
     pub(in crate::mechanics) fn kept(&self, model: &Model) -> Vec<JointId> {
         let fixed = |id: &JointId| model.joints.get(id.0).is_some_and(|joint| joint.kind.freedoms() == 0);

@@ -306,17 +306,19 @@ impl Equations<'_> {
             return self.measured_angular_velocity(joint);
         }
         let joint = &mechanism.joints[joint.0];
-        let mut angular = Vector::ZERO;
+        // By link of the joint. A ball on hinges hangs on what carries these, and not on the link before it.
+        let mut angular: Vec<Vector> = Vec::with_capacity(joint.links.len());
         for link in &tree.links[joint.links.clone()] {
-            let carried =
-                if link.parent.is_some_and(|parent| joint.links.contains(&parent)) { angular } else { Vector::ZERO };
+            let before = link.parent.and_then(|parent| parent.checked_sub(joint.links.start));
+            let carried = before.and_then(|at| angular.get(at)).copied().unwrap_or(Vector::ZERO);
             let carried = tree.to_link(&mut self.g, link, carried);
             let (turn, _) = tree.joint_motion(&mut self.g, link, &tree.velocity);
-            angular = self.g.add_vectors(carried, turn);
+            angular.push(self.g.add_vectors(carried, turn));
         }
+        let last = angular.last().copied().unwrap_or(Vector::ZERO);
         match joint.child {
-            Some(child) => self.g.rotate(child.rotation.transpose(), angular),
-            None => angular,
+            Some(child) => self.g.rotate(child.rotation.transpose(), last),
+            None => last,
         }
     }
 }

@@ -2,6 +2,7 @@
 //! loops and makes no function.
 
 pub(super) mod agreement;
+pub mod balls;
 pub mod build;
 mod chain;
 pub(super) mod dependencies;

@@ -166,6 +166,18 @@ impl Symbols {
         self.unknown(self.guesses.len() + number)
     }
 
+    /// Number of velocities of the tree, and of speeds of the user's choice behind them.
+    pub fn places(&self) -> usize {
+        self.freedoms + self.speeds.len()
+    }
+
+    /// The velocity coordinate of a joint at a place among them.
+    pub fn coordinate_at(&self, place: usize) -> Option<Coordinate> {
+        let joint = self.first.iter().rposition(|&first| first <= place)?;
+        let index = place - self.first[joint];
+        (index < self.velocities[joint].len()).then_some(Coordinate { joint: JointId(joint), index })
+    }
+
     pub fn new(g: &mut Graph, model: &Model) -> Symbols {
         let mut table = Vec::new();
         let time = one(g, &mut table, Symbol::Time);

@@ -31,6 +31,9 @@ impl Equations<'_> {
                 seeds.extend(pairs.filter(|&(v, _)| is_symbol(&self.g, v)));
             }
         }
+        if order > 1 {
+            seeds.extend(self.scene.symbols.speeds.iter().map(|&[speed, rate]| (speed, rate)));
+        }
         seeds
     }
 

@@ -36,7 +36,7 @@ impl Following {
     pub(super) fn new(e: &mut Equations<'_>, reduction: &Reduction, letters: &Letters) -> Following {
         let structure = Rc::clone(&e.scene.structure);
         let places = e.speeds();
-        let mut map = vec![vec![Scalar::ZERO; places.len()]; e.scene.symbols.freedoms];
+        let mut map = vec![vec![Scalar::ZERO; places.len()]; e.scene.symbols.places()];
         for (j, &place) in places.iter().enumerate() {
             if let Some(row) = map.get_mut(place) {
                 row[j] = Scalar::ONE;

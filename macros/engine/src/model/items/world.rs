@@ -1,6 +1,6 @@
 //! Stage `model`: what is said once per model: `world`, `formulation`.
 //!
-//! In: their items. Out: gravity, what becomes of constraints, the independent coordinates, rounds of Newton's method.
+//! In: their items. Out: gravity, what becomes of constraints, whether speeds are to be chosen, the independent coordinates, rounds of Newton's method.
 
 use proc_macro2::Span;
 use syn::Expr;
@@ -20,13 +20,15 @@ const WORLD: Known<'static> = Known { required: &[], optional: &["gravity"] };
 
 const FORMULATION: Known<'static> = Known {
     required: &[],
-    optional: &["coordinates", "constraints", "independent", "rounds", "packs", "rate", "position"],
+    optional: &["coordinates", "constraints", "independent", "rounds", "packs", "speeds", "rate", "position"],
 };
 
 /// More rounds of Newton's method than any guess is worth.
 const MOST_ROUNDS: usize = 50;
 
 const PACKS: [&str; 2] = ["Off", "Four"];
+
+const SPEEDS: [&str; 2] = ["Rates", "Auto"];
 
 const HANDLINGS: [&str; 4] = ["Multipliers", "Reduced", "Stabilised", "Auto"];
 
@@ -138,6 +140,25 @@ impl<'a> Checker<'a, '_> {
                 None
             }
         }
+    }
+
+    /// `speeds: Auto`
+    pub(in crate::model) fn speed_choice(&mut self, fields: &'a tree::Fields) -> Option<Span> {
+        let expr = field(fields, "speeds")?;
+        let name = match expr {
+            Expr::Verbatim(_) => {
+                self.report.silent();
+                return None;
+            }
+            Expr::Path(path) => path.path.get_ident().map(ToString::to_string).unwrap_or_default(),
+            _ => String::new(),
+        };
+        if !SPEEDS.contains(&name.as_str()) {
+            let help =
+                Some(format!("there are `{}`; speeds of your own are items: `speed u = ..;`", SPEEDS.join("`, `")));
+            self.report.unknown(expr.span(), "unknown choice of speeds", &name, SPEEDS, help);
+        }
+        (name == "Auto").then(|| expr.span())
     }
 
     fn stray_term(&mut self, name: &proc_macro2::Ident) {

@@ -245,6 +245,7 @@ impl<'a> Walk<'a> {
                 "coordinates" => self.words_in("coordinates", &field.value),
                 "constraints" => self.words_in("handling", &field.value),
                 "packs" => self.words_in("packs", &field.value),
+                "speeds" => self.words_in("speeds", &field.value),
                 _ => self.expr(&field.value),
             }
         }

@@ -10,7 +10,7 @@ type Room = &'static [(&'static str, &'static [&'static str])];
 
 const ITEM: Room = &[
     ("World", &["gravity"]),
-    ("Formulation", &["coordinates", "constraints", "independent", "rounds", "packs", "rate", "position"]),
+    ("Formulation", &["coordinates", "constraints", "independent", "rounds", "packs", "speeds", "rate", "position"]),
     ("Body", &["mass", "com", "inertia", "coordinates"]),
 ];
 
@@ -86,6 +86,8 @@ const HANDLING: Room = &[("Multipliers", &[]), ("Reduced", &[]), ("Stabilised", 
 
 const PACKS: Room = &[("Off", &[]), ("Four", &[])];
 
+const SPEEDS: Room = &[("Rates", &[]), ("Auto", &[])];
+
 /// What a declared name is.
 const NAME: Room = &[
     ("Const", &[]),
@@ -109,7 +111,7 @@ const NAME: Room = &[
 ];
 
 /// The rooms whose words stand here.
-const ROOMS: [(&str, Room); 9] = [
+const ROOMS: [(&str, Room); 10] = [
     ("item", ITEM),
     ("force", FORCE),
     ("constraint", CONSTRAINT),
@@ -118,6 +120,7 @@ const ROOMS: [(&str, Room); 9] = [
     ("coordinates", COORDINATES),
     ("handling", HANDLING),
     ("packs", PACKS),
+    ("speeds", SPEEDS),
     ("name", NAME),
 ];
 

@@ -2,6 +2,7 @@
 //!
 //! In: forms. Out: an orthonormal [`Frame`] of them, in which any form has coefficients and a rest; the space that rows leave.
 
+use super::super::orthonormal::{complement, greatest, unit};
 use super::super::problem::forms::Form;
 use super::super::singular::{add, dot};
 
@@ -92,15 +93,6 @@ impl Frame {
     }
 }
 
-/// Makes a vector one of unit length, and gives the length that it had.
-fn unit(vector: &mut [f64]) -> Option<f64> {
-    let length = dot(vector, vector).sqrt();
-    if length > 0.0 {
-        vector.iter_mut().for_each(|x| *x /= length);
-    }
-    length.is_finite().then_some(length)
-}
-
 /// Combinations that vanish in all rows, orthonormal; nothing where it isn't clear which do.
 pub(super) fn vanishing(mut rows: Vec<Vec<f64>>, dimension: usize, limits: Limits) -> Option<Vec<Vec<f64>>> {
     let mut seen: Vec<Vec<f64>> = Vec::new();
@@ -119,35 +111,4 @@ pub(super) fn vanishing(mut rows: Vec<Vec<f64>>, dimension: usize, limits: Limit
         seen.push(greatest);
     }
     Some(complement(&seen.iter().collect::<Vec<_>>(), dimension))
-}
-
-fn greatest(rows: &[Vec<f64>]) -> Option<&Vec<f64>> {
-    rows.iter().max_by(|a, b| dot(a, a).total_cmp(&dot(b, b)))
-}
-
-/// What lies across orthonormal vectors, orthonormal.
-fn complement(taken: &[&Vec<f64>], dimension: usize) -> Vec<Vec<f64>> {
-    let unit_vector = |k: usize| (0..dimension).map(|i| f64::from(u8::from(i == k))).collect::<Vec<f64>>();
-    let mut left: Vec<Vec<f64>> = (0..dimension).map(unit_vector).collect();
-    let clear = |left: &mut [Vec<f64>], direction: &[f64]| {
-        for vector in left {
-            let share = dot(direction, vector);
-            add(vector, -share, direction);
-        }
-    };
-    taken.iter().for_each(|direction| clear(&mut left, direction));
-    let mut found: Vec<Vec<f64>> = Vec::new();
-    while taken.len() + found.len() < dimension {
-        let Some(mut next) = greatest(&left).cloned() else { break };
-        for direction in taken.iter().copied().chain(&found) {
-            let share = dot(direction, &next);
-            add(&mut next, -share, direction);
-        }
-        if unit(&mut next).is_none() {
-            break;
-        }
-        clear(&mut left, &next);
-        found.push(next);
-    }
-    found
 }

@@ -14,8 +14,7 @@ use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::structure::Row;
 use crate::model::site::{Site, Sited};
 use crate::model::types::{
-    ConstraintId, ConstraintKind, Coordinate, Expr, ExprNode, JointId, LoopClosure, Model, SolveHow, Speed,
-    SystemQuantity,
+    ConstraintId, ConstraintKind, Coordinate, Expr, ExprNode, JointId, LoopClosure, Model, SolveHow, SystemQuantity,
 };
 use crate::symbolic::differentiate::Differentiator;
 use crate::symbolic::graph::Scalar;
@@ -51,7 +50,7 @@ pub(in crate::mechanics) fn complaints(model: &Model) -> Vec<Complaint> {
     }
     let mut e = Equations::plain(model);
     let mut complaints: Vec<Complaint> = rows.iter().filter_map(|&row| e.misfit(row)).collect();
-    complaints.extend(model.speeds.iter().filter_map(|speed| e.misfit_of_speed(speed)));
+    complaints.extend((0..model.speeds.len()).filter_map(|number| e.misfit_of_speed(number)));
     for solve in &model.solves {
         let SolveHow::From { closings, .. } = &solve.how else { continue };
         for closing in closings.iter().filter(|closing| rows.iter().any(|row| row.closing == closing.what)) {
@@ -145,8 +144,10 @@ impl Equations<'_> {
     }
 
     /// What is wrong with a speed of the user's choice.
-    pub(super) fn misfit_of_speed(&mut self, speed: &Speed) -> Option<Complaint> {
-        let name = format!("the speed `{}`", speed.place.field);
+    pub(super) fn misfit_of_speed(&mut self, number: usize) -> Option<Complaint> {
+        let model = self.scene.model;
+        let speed = &model.speeds[number];
+        let name = format!("the speed `{}`", coordinate_name(model, model.coordinate_of(number)));
         self.not_affine(
             &speed.value,
             &name,

@@ -100,7 +100,7 @@ impl Equations<'_> {
                 wrenches[parent] = wrenches[parent].add(g, &carried);
             }
         }
-        efforts.truncate(self.scene.symbols.freedoms);
+        efforts.truncate(self.scene.symbols.places());
         mechanism.sign(&efforts)
     }
 
