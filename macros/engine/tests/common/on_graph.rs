@@ -1,7 +1,7 @@
 //! A random mechanism as a tree on a graph of its own.
 
 use multibody_engine::dynamics::inertia::Inertia;
-use multibody_engine::dynamics::tree::{Link, Motion, Tree};
+use multibody_engine::dynamics::tree::{Link, Motion, Orientation, Tree};
 use multibody_engine::symbolic::graph::{Graph, Scalar};
 use multibody_engine::symbolic::number::Number;
 
@@ -54,7 +54,7 @@ fn motion(g: &mut Graph, body: &Body) -> (Motion, Scalar) {
             let pitch = g.decimal(pitch);
             (Motion::Screw(axis, pitch), g.symbol())
         }
-        Kind::Ball => (Motion::Ball(g.unit_quaternion()), Scalar::ZERO),
+        Kind::Ball => (Motion::Ball(Orientation::Quaternion(g.unit_quaternion())), Scalar::ZERO),
     }
 }
 

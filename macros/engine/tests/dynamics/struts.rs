@@ -5,7 +5,7 @@
 use crate::formulations;
 use crate::rng::Rng;
 use multibody_engine::dynamics::inertia::Inertia;
-use multibody_engine::dynamics::tree::{Link, Motion, Tree};
+use multibody_engine::dynamics::tree::{Link, Motion, Orientation, Tree};
 use multibody_engine::mechanics::strut::carrier::{Axes, Carrier};
 use multibody_engine::mechanics::strut::detect::{Chain, detect};
 use multibody_engine::mechanics::strut::forward::{self, accelerations};
@@ -118,7 +118,8 @@ impl Bench {
         }
         if centre == Centre::Ball {
             let quaternion = self.quaternion();
-            parent = Some(self.link(None, Motion::Ball(quaternion), Scalar::ZERO, foot, cylinder));
+            parent =
+                Some(self.link(None, Motion::Ball(Orientation::Quaternion(quaternion)), Scalar::ZERO, foot, cylinder));
         }
         let piston = self.rod(slide);
         let q = self.coordinate();
@@ -249,7 +250,13 @@ fn body(b: &mut Bench, turns: Option<[usize; 3]>) -> (usize, Vec<(Chain, Triple,
         }
         None => {
             let quaternion = b.quaternion();
-            parent = Some(b.link(parent, Motion::Ball(quaternion), Scalar::ZERO, triple::ZERO, Inertia::ZERO));
+            parent = Some(b.link(
+                parent,
+                Motion::Ball(Orientation::Quaternion(quaternion)),
+                Scalar::ZERO,
+                triple::ZERO,
+                Inertia::ZERO,
+            ));
         }
     }
     let platform = parent.unwrap();

@@ -11,7 +11,7 @@ use multibody_engine::dynamics::floating_bases::floating_bases;
 use multibody_engine::dynamics::newton_euler::Wrench;
 use multibody_engine::dynamics::regroup::regroup;
 use multibody_engine::dynamics::shared_axes::{SharedAxes, share_axes};
-use multibody_engine::dynamics::tree::{Motion, Tree};
+use multibody_engine::dynamics::tree::{Motion, Orientation, Tree};
 use multibody_engine::dynamics::{articulated, composite_at_root};
 use multibody_engine::symbolic::evaluate::{Evaluator, Real};
 use multibody_engine::symbolic::graph::{Graph, Scalar, ScalarNode, SymbolId};
@@ -305,7 +305,7 @@ fn rates(g: &mut Graph, tree: &Tree) -> Vec<(Scalar, Scalar)> {
         tree.velocity.iter().copied().zip(tree.acceleration.iter().copied()).collect();
     let half = g.decimal(0.5);
     for link in &tree.links {
-        let Motion::Ball(q) = link.motion else {
+        let Motion::Ball(Orientation::Quaternion(q)) = link.motion else {
             rates.push((link.q, tree.velocity[link.freedom]));
             continue;
         };

@@ -5,7 +5,7 @@ use crate::cycle::{Cycle, Outcome};
 use crate::reference;
 use crate::rng::Rng;
 use multibody_engine::contracts::cost::Cost;
-use multibody_engine::dynamics::tree::Motion;
+use multibody_engine::dynamics::tree::{Motion, Orientation};
 use multibody_engine::solve::{Failure, KinematicLoop, Segment, Value, solve};
 use multibody_engine::symbolic::graph::{Rotation, Scalar};
 
@@ -304,7 +304,7 @@ fn three_spheres_meet() {
             let ball = |c: &mut Cycle| {
                 let quaternion = c.g.unit_quaternion();
                 c.values.extend([0.0; 4]);
-                unknown(Motion::Ball(quaternion), quaternion[0], false)
+                unknown(Motion::Ball(Orientation::Quaternion(quaternion)), quaternion[0], false)
             };
             let length = c.known(square.sqrt());
             let back = centre.map(|x| -c.known(x));

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use multibody_engine::contracts::cost::Cost;
-use multibody_engine::dynamics::tree::Motion;
+use multibody_engine::dynamics::tree::{Motion, Orientation};
 use multibody_engine::solve::{Balance, Failure, Segment, Solution, Solved, Value, solve};
 use multibody_engine::symbolic::evaluate::{Evaluator, Real};
 use multibody_engine::symbolic::graph::{Graph, Rotation, Scalar, ScalarNode};
@@ -113,7 +113,7 @@ impl Cycle {
     pub(crate) fn ball(&mut self, truth: [f64; 3]) {
         let quaternion = self.g.unit_quaternion();
         self.values.extend([truth[0], truth[1], truth[2], 0.0]);
-        let motion = Motion::Ball(quaternion);
+        let motion = Motion::Ball(Orientation::Quaternion(quaternion));
         self.segments.push(Segment::Unknown { motion, symbol: quaternion[0], wanted: false });
         self.elements.push(Element::Joint { motion, pitch: 0.0, symbol: quaternion[0] });
     }
@@ -172,10 +172,11 @@ impl Cycle {
                     Motion::Revolute(axis) => about(axis, x),
                     Motion::Prismatic(axis) => along(axis, x),
                     Motion::Screw(axis, _) => about(axis, x).then(&along(axis, pitch * x)),
-                    Motion::Ball(q) => {
+                    Motion::Ball(Orientation::Quaternion(q)) => {
                         let angles = self.numbers(&q);
                         (0..3).fold(IDENTITY, |t, k| t.then(&about(k, angles[k])))
                     }
+                    Motion::Ball(Orientation::Turn(_)) => unreachable!("these cycles have quaternions"),
                 }
             }
         };
@@ -222,7 +223,8 @@ impl Cycle {
                 _ => None,
             })
             .flat_map(|(at, motion, symbol)| {
-                let list = if let Motion::Ball(q) = motion { q[..3].to_vec() } else { vec![symbol] };
+                let list =
+                    if let Motion::Ball(Orientation::Quaternion(q)) = motion { q[..3].to_vec() } else { vec![symbol] };
                 list.into_iter().enumerate().map(move |(k, s)| (at, s, k))
             })
             .collect();
@@ -271,12 +273,13 @@ impl Cycle {
             Motion::Revolute(axis) => (before.axis(axis), 0.0, true),
             Motion::Prismatic(axis) => (before.axis(axis), 1.0, false),
             Motion::Screw(axis, _) => (before.axis(axis), *pitch, true),
-            Motion::Ball(q) => {
+            Motion::Ball(Orientation::Quaternion(q)) => {
                 let angles = self.numbers(&q);
                 let unit = |axis: usize| -> [f64; 3] { std::array::from_fn(|i| f64::from(u8::from(i == axis))) };
                 let local = (0..k).rev().fold(unit(k), |v, j| apply(&turn(unit(j), angles[j]), v));
                 (apply(&before.rotation, local), 0.0, true)
             }
+            Motion::Ball(Orientation::Turn(_)) => unreachable!("these cycles have quaternions"),
         };
         let angular = if turns { direction } else { [0.0; 3] };
         // Of the point of the closed cycle that lies at the origin.

@@ -79,6 +79,22 @@ pub(super) fn choose(model: &Model, problem: &Problem, structure: &mut Structure
     Vec::new()
 }
 
+/// A speed at a configuration.
+struct Offered {
+    /// By the motions that are left there.
+    along: Vec<f64>,
+    /// Of its row by all coordinates.
+    length: f64,
+}
+
+impl Offered {
+    /// What is left of it behind others, as a share of it.
+    fn share(&self, basis: &[Vec<f64>]) -> f64 {
+        let left = without(self.along.clone(), basis);
+        if self.length > 0.0 { dot(&left, &left).sqrt() / self.length } else { 0.0 }
+    }
+}
+
 /// Of a model's speeds those to take, the clearest first: independent of the ones before them wherever loops and equations of velocities
 /// leave the mechanism. Nothing where the model is refused without any.
 pub fn clear_speeds(model: &Model) -> Option<Vec<usize>> {
@@ -87,36 +103,29 @@ pub fn clear_speeds(model: &Model) -> Option<Vec<usize>> {
     let points = points(&problem, &structure);
     let choice = Choice { model, problem: &problem, structure: &structure, points: &points };
     let mut values = Values::default();
-    // By point and speed: its components along motions that are left, and its length.
-    let mut seen: Vec<Vec<(Vec<f64>, f64)>> = Vec::new();
+    let mut seen: Vec<Vec<Offered>> = Vec::new();
     for point in &points {
         let Some(rest) = choice.motions_at(point, false) else { continue };
-        let rows = problem.speeds_at(point, &mut values).into_iter().map(|row| {
+        let offered = |row: Vec<(usize, f64)>| {
             let row = choice.dense(row);
-            let along: Vec<f64> = rest.iter().map(|unit| dot(unit, &row)).collect();
-            (along, dot(&row, &row).sqrt())
-        });
-        seen.push(rows.collect());
+            Offered { along: rest.iter().map(|unit| dot(unit, &row)).collect(), length: dot(&row, &row).sqrt() }
+        };
+        seen.push(problem.speeds_at(point, &mut values).into_iter().map(offered).collect());
     }
     let mut taken: Vec<usize> = Vec::new();
     let mut bases: Vec<Vec<Vec<f64>>> = vec![Vec::new(); seen.len()];
     loop {
         let share = |k: usize| {
-            let of = |(speeds, basis): (&Vec<(Vec<f64>, f64)>, &Vec<Vec<f64>>)| {
-                let left = without(speeds[k].0.clone(), basis);
-                if speeds[k].1 > 0.0 { dot(&left, &left).sqrt() / speeds[k].1 } else { 0.0 }
-            };
-            seen.iter().zip(&bases).map(of).fold(f64::INFINITY, f64::min)
+            let shares = seen.iter().zip(&bases).map(|(offered, basis)| offered[k].share(basis));
+            shares.fold(f64::INFINITY, f64::min)
         };
-        let left = (0..model.speeds.len()).filter(|k| !taken.contains(k));
+        let left = (0..model.speeds.len()).filter(|k| !taken.contains(k)).map(|k| (share(k), k));
         // The first of equal ones.
-        let best =
-            left.map(|k| (share(k), k)).reduce(|best, one| if one.0 > best.0 * (1.0 + DEPENDENT) { one } else { best });
+        let best = left.reduce(|best, one| if one.0 > best.0 * (1.0 + DEPENDENT) { one } else { best });
         let Some((_, k)) = best.filter(|best| best.0 > CLEAR && best.0.is_finite()) else { break };
-        for (speeds, basis) in seen.iter().zip(&mut bases) {
-            let mut left = without(speeds[k].0.clone(), basis);
-            let length = dot(&left, &left).sqrt();
-            left.iter_mut().for_each(|x| *x /= length);
+        for (offered, basis) in seen.iter().zip(&mut bases) {
+            let mut left = without(offered[k].along.clone(), basis);
+            unit(&mut left);
             basis.push(left);
         }
         taken.push(k);
