@@ -1,6 +1,5 @@
 //! Turns of bodies on hinges as speeds: the same motion as in the rates of the hinges, whatever hangs on these.
 
-use multibody::nalgebra::Vector3;
 use multibody::{Configuration, System, Tangent, multibody};
 
 use crate::speeds::{Random, agree, derivatives_are_slopes, flat, with_rates};
@@ -133,19 +132,3 @@ macro_rules! same_motion {
 
 same_motion!(a_top_on_a_trolley, top, top_turning, [slide, first, second, third, elbow]);
 same_motion!(a_limb_on_a_floating_hull, limb, limb_turning, [base, shoulder, elbow]);
-
-/// Velocities are the turn, and the mass matrix of what turns is its inertia.
-#[test]
-fn speeds_are_turns() {
-    let chosen = top_turning::Model::<f64>::default();
-    let mut state = top_turning::State::<f64>::default();
-    let mut random = Random(8);
-    state.q = state.q.displace(&random.vector::<top_turning::Rates>().map(&mut |x| 3.0 * x));
-    state.v = random.vector();
-    let out = chosen.outputs(0.0, &state, &top_turning::Input { twist: 0.0 });
-    let turning = Vector3::new(state.v.along, state.v.across, state.v.about);
-    let carried: Vector3<f64> = out.moved[7];
-    assert!(turning.norm() > 0.1 && carried.norm() > 0.1);
-    let rates = chosen.position_rates(0.0, &state);
-    assert!((rates.first - out.hinges[0]).abs() < 1e-14);
-}

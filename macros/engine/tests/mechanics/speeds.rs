@@ -179,6 +179,8 @@ fn hinges_become_a_ball() {
             "{GIMBAL} speed x = w.x; speed y = seen.rotated(X, 0.1).express(top.angular_velocity).y; speed z = w.z;"
         ),
         format!("{apart} {TURN}"),
+        format!("{GIMBAL} {TURN} output slope = diff(kinetic(), first.rate);"),
+        format!("{GIMBAL} {TURN} drive slide = sin(t);"),
     ] {
         assert!(operations(&other) > ball + 50, "{other}");
     }
@@ -187,7 +189,7 @@ fn hinges_become_a_ball() {
 /// What is asked of hinges that a ball doesn't have stays known: forces between them, their rates, what acts on them.
 #[test]
 fn hinges_of_a_ball_stay_known() {
-    let read = "output loads = [first.reaction.force, third.reaction.moment]; output turning = two.angular_velocity;
+    let read = "output loads = [third.reaction.force, third.reaction.moment]; output turning = two.angular_velocity;
          output rates = [first.rate, second.accel]; force drag: Damper { joint: second, damping: 0.3 }
          force load: Torque { at: one, axes: top, value: [0.1, 0.2, 0.3] }";
     let (_, structure, _) =
@@ -235,7 +237,16 @@ fn choices_in_parts() {
     let model = model_with(model, items);
     let model = chosen(&model).unwrap_or_else(|_| panic!("chosen"));
     let names: Vec<String> = model.speeds.iter().map(|speed| speed.place.field.to_string()).collect();
-    println!("{:?}", model.remarks);
     assert_eq!(names, ["bob_omega_x_", "bob_omega_y", "bob_omega_z", "bob_omega_x_", "bob_omega_y", "bob_omega_z"]);
     assert!(compile(&model).is_ok());
+}
+
+/// Functions agree where a drive carries what turns.
+#[test]
+fn turns_on_a_drive() {
+    let (_, structure, _) = built(&format!(
+        "{GIMBAL} {TURN} drive slide = sin(3.0 * t); output turning = two.angular_velocity; output effort = slide.effort;
+         emit forward_dynamics, inverse_dynamics, mass_matrix, bias, energy;"
+    ));
+    assert_eq!(structure.rates.unknowns.len(), 3);
 }

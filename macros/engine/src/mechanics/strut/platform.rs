@@ -51,8 +51,9 @@ impl Equations<'_> {
     pub(in crate::mechanics) fn platform(&mut self, reduction: &Reduction) -> Option<Platform> {
         let model = self.scene.model;
         let structure = Rc::clone(&self.scene.structure);
-        // Motions to first order are no motions of a body on struts.
+        // Motions to first order are no motions of a body on struts, and speeds are not the rates that these are written in.
         if !model.small.is_empty()
+            || structure.has_speeds()
             || !structure.rows.is_empty()
             || structure.steps.is_empty()
             || !self.rotors().is_empty()

@@ -2,14 +2,14 @@
 //!
 //! In: the tree with a link for each hinge, speeds of the user's choice. Out: the same tree, in which a link on three hinges about one
 //! point, whose turn against what carries them has components among the speeds, is a ball link: its velocity is those speeds, as the
-//! velocity of a quaternion's ball is its angular velocity. So the partial velocities are unit vectors in the link's axes, and all
+//! velocity of a quaternion's ball is its angular velocity; in open trees alone. So the partial velocities are unit vectors in the link's axes, and all
 //! recursions are as short as with a quaternion (Kane and Levinson 1985; Mitiguy and Kane 1996). The first two hinges stay, as links that
 //! carry nothing, for what is said of them; their rates, and that of the third, follow from the speeds, w = E q', by E^-1 = adj(E) / det(E).
 
 use crate::dynamics::tree::{Motion, Orientation};
 use crate::mechanics::equations::Equations;
 use crate::model::types::{BodyRef, Coordinate, Expr, ExprNode, Frame, FrameQuantity, JointId, Speed};
-use crate::symbolic::graph::{Rotation, Scalar, Vector};
+use crate::symbolic::graph::{Graph, Rotation, Scalar, Vector};
 use crate::symbolic::rotations;
 
 use super::build::{FixedFrame, Mechanism};
@@ -38,6 +38,9 @@ impl Equations<'_> {
     /// Makes balls of all hinges that speeds allow it of.
     pub(super) fn merge_hinges(&mut self, mechanism: &mut Mechanism) {
         let model = self.scene.model;
+        if !self.allows_balls() {
+            return;
+        }
         let mut number = 0;
         while let Some(speeds) = model.speeds.get(number..number + 3) {
             let ball = self.turn(speeds).and_then(|turn| self.hinged_ball(mechanism, number, &turn));
@@ -110,6 +113,16 @@ impl Equations<'_> {
         Some(HingedBall { speed, hinges, axes: found })
     }
 
+    /// Whether nothing takes motions of the tree apart by the rates of its hinges, which a ball doesn't have: what holds it together, drives,
+    /// derivatives and substitutions.
+    fn allows_balls(&self) -> bool {
+        let model = self.scene.model;
+        let is_open =
+            model.cuts.is_empty() && model.constraints.is_empty() && model.drives.is_empty() && model.small.is_empty();
+        let speeds = model.speeds.iter().map(|speed| &speed.value);
+        is_open && !Dependencies::of(roots(model).into_iter().chain(speeds)).manipulations
+    }
+
     /// Whether it is asked what the first hinges transmit, whose links carry nothing any more.
     fn tells_of(&self, mechanism: &Mechanism, hinges: &[Coordinate; 3], links: [usize; 2]) -> bool {
         let between = |joint: &JointId| {
@@ -134,7 +147,7 @@ impl Equations<'_> {
         }
     }
 
-    /// Rates of a ball's hinges and their accelerations, with positions and rates on the tree.
+    /// Rates of a ball's hinges and their accelerations, with positions and rates on the tree; and det(E).
     pub(in crate::mechanics) fn hinge_rates(&mut self, ball: &HingedBall) -> ([Scalar; 3], [Scalar; 3], Scalar) {
         let [a, b, c] = ball.axes;
         let speeds = [0, 1, 2].map(|k| self.scene.symbols.speeds[ball.speed + k]);
@@ -148,25 +161,17 @@ impl Equations<'_> {
         let across = [g.cross(b, c), g.cross(c, a), g.cross(a, b)];
         let volume = g.dot(a, across[0]);
         let inverse = g.reciprocal(volume);
-        let mut solve = |side: [Scalar; 3]| {
+        let solve = |g: &mut Graph, side: [Scalar; 3]| {
             let side = g.vector(side);
             across.map(|row| {
                 let along = g.dot(row, side);
                 g.mul(inverse, along)
             })
         };
-        let first = solve(speeds.map(|speed| speed[0]));
+        let first = solve(g, speeds.map(|speed| speed[0]));
         let pushed = [0, 1, 2].map(|k| (speeds[k][1], drift[k]));
         let pushed = pushed.map(|(accelerated, drift)| self.g.sub(accelerated, drift));
-        let g = &mut self.g;
-        let mut solve = |side: [Scalar; 3]| {
-            let side = g.vector(side);
-            across.map(|row| {
-                let along = g.dot(row, side);
-                g.mul(inverse, along)
-            })
-        };
-        let second = solve(pushed);
+        let second = solve(&mut self.g, pushed);
         (first, second, volume)
     }
 }

@@ -14,6 +14,8 @@ pub(in crate::mechanics) struct Dependencies {
     pub accelerations: bool,
     pub multipliers: bool,
     reactions: Vec<JointId>,
+    /// Equations or expressions are taken apart: by derivatives, substitutions, formulas of other models.
+    pub manipulations: bool,
 }
 
 impl Dependencies {
@@ -37,7 +39,11 @@ impl Dependencies {
                 }
                 ExprNode::Power(_) | ExprNode::Express { .. } => needs.frames = true,
                 ExprNode::Coordinate { order: Order::Acceleration, .. } => needs.accelerations = true,
-                ExprNode::Derivative { accelerated, .. } => needs.accelerations |= *accelerated,
+                ExprNode::Derivative { accelerated, .. } => {
+                    needs.accelerations |= *accelerated;
+                    needs.manipulations = true;
+                }
+                ExprNode::Substituted { .. } | ExprNode::Formula { .. } => needs.manipulations = true,
                 ExprNode::Multiplier(_) => (needs.accelerations, needs.multipliers) = (true, true),
                 ExprNode::Reaction { joint, .. } => {
                     needs.accelerations = true;
