@@ -226,7 +226,9 @@ const PACKED: [&str; 2] = ["quadruped", "stewart, reduced"];
 pub struct InSpeeds {
     /// Of the generated module.
     pub model: String,
+    /// With the rates of coordinates for velocities.
     pub in_rates: Cost,
+    /// With the speeds that are chosen.
     pub in_speeds: Cost,
     /// The speeds that the model's `speeds: Auto` stands for.
     pub speeds: Vec<String>,
