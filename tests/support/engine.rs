@@ -1,8 +1,8 @@
 //! The committed models through the engine as a library.
 
 use multibody_engine::diagnostics::Diagnostics;
+use multibody_engine::model;
 use multibody_engine::model::types::Model;
-use multibody_engine::{model, syntax};
 use proc_macro2::{Group, Ident, TokenStream, TokenTree};
 
 use super::data::path;
@@ -21,7 +21,7 @@ pub fn calls(file: &str) -> Vec<TokenStream> {
 /// Parses and checks a call without mistakes.
 pub fn models(call: TokenStream) -> Vec<Model> {
     let mut diagnostics = Diagnostics::default();
-    let source = syntax::parse(call, &mut diagnostics);
+    let source = multibody_engine::parse(call, &mut diagnostics);
     let models = model::check(&source, &mut diagnostics);
     let errors: Vec<&str> = diagnostics.errors().iter().map(|e| e.message.as_str()).collect();
     assert!(errors.is_empty(), "{errors:#?}");

@@ -1,6 +1,6 @@
 //! Turns of bodies on hinges as speeds: the same motion as in the rates of the hinges, whatever hangs on these.
 
-use multibody::{Configuration, System, Tangent, multibody};
+use multibody::{Configuration, Tangent, multibody};
 
 use crate::speeds::{Random, agree, derivatives_are_slopes, flat, with_rates};
 
