@@ -224,9 +224,8 @@ pub fn chosen(model: &Model) -> Result<Cow<'_, Model>, Trouble> {
     guard("formulation", || formulation::with_speeds(model)).map(Cow::Owned).map_err(Trouble::Fault)
 }
 
-/// The stages behind the checked model. What is emitted is emitted of the [`chosen`] model.
+/// The stages behind the checked model, whose speeds are [`chosen`]: where they are not, it has the rates of its coordinates.
 pub fn compile(model: &Model) -> Result<(Structure, Compiled), Trouble> {
-    let model = &*chosen(model)?;
     let (model, advice, (structure, compiled)) = settled(model, compile_as_written)?;
     let structure = Structure { advice: advice.map(Box::new), ..structure };
     Ok((
