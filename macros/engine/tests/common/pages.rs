@@ -87,11 +87,14 @@ fn solves_with_pivots(model: &Model) -> bool {
 impl Written {
     /// Of a model with the functions that its equations speak of, and `more`; None where it has none, or no formulas because
     /// Newton's method closes its loops, a user's program drives it, or it solves systems with pivots, whose unknowns have names
-    /// and no lines.
+    /// and no lines; nor where velocities are no rates of coordinates, whose pages are not compared yet.
     pub(crate) fn new(mut model: Model, more: &[Request]) -> Option<Written> {
         model.emit = vec![Request::MassMatrix, Request::Bias, Request::InverseDynamics];
         model.emit.extend(more);
         let structure = analysis::analyse(&model).ok()?;
+        if structure.has_speeds() {
+            return None;
+        }
         if !structure.rows.is_empty() {
             model.emit.push(Request::Residual);
         }
