@@ -337,7 +337,7 @@ impl Equations<'_> {
     fn state_elimination(&self) -> Vec<usize> {
         let speeds = self.speeds();
         let order = self.scene.mechanism.elimination(self.scene.way.method == Method::Floating);
-        let chosen = self.scene.symbols.freedoms..self.scene.symbols.freedoms + self.scene.symbols.speeds.len();
+        let chosen = self.scene.symbols.freedoms..self.scene.symbols.places();
         let others = chosen.filter(|place| !order.contains(place)).collect::<Vec<_>>();
         order.into_iter().chain(others).filter_map(|freedom| speeds.iter().position(|&k| k == freedom)).collect()
     }

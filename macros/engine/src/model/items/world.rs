@@ -59,14 +59,7 @@ impl<'a> Checker<'a, '_> {
             }
             return None;
         };
-        let name = match expr {
-            Expr::Verbatim(_) => {
-                self.report.silent();
-                return None;
-            }
-            Expr::Path(path) => path.path.get_ident().map(ToString::to_string).unwrap_or_default(),
-            _ => String::new(),
-        };
+        let name = self.word(expr)?;
         if matches!(name.as_str(), "Multipliers" | "Reduced" | "Auto")
             && let Some(stray) = fields.list.iter().find(|given| given.name == "rate" || given.name == "position")
         {
@@ -123,14 +116,7 @@ impl<'a> Checker<'a, '_> {
     /// `packs: Four`
     pub(in crate::model) fn packs(&mut self, fields: &'a tree::Fields) -> Option<Packs> {
         let expr = field(fields, "packs")?;
-        let name = match expr {
-            Expr::Verbatim(_) => {
-                self.report.silent();
-                return None;
-            }
-            Expr::Path(path) => path.path.get_ident().map(ToString::to_string).unwrap_or_default(),
-            _ => String::new(),
-        };
+        let name = self.word(expr)?;
         match name.as_str() {
             "Four" => Some(Packs::Four),
             "Off" => Some(Packs::Off),
@@ -145,20 +131,25 @@ impl<'a> Checker<'a, '_> {
     /// `speeds: Auto`
     pub(in crate::model) fn speed_choice(&mut self, fields: &'a tree::Fields) -> Option<Span> {
         let expr = field(fields, "speeds")?;
-        let name = match expr {
-            Expr::Verbatim(_) => {
-                self.report.silent();
-                return None;
-            }
-            Expr::Path(path) => path.path.get_ident().map(ToString::to_string).unwrap_or_default(),
-            _ => String::new(),
-        };
+        let name = self.word(expr)?;
         if !SPEEDS.contains(&name.as_str()) {
             let help =
                 Some(format!("there are `{}`; speeds of your own are items: `speed u = ..;`", SPEEDS.join("`, `")));
             self.report.unknown(expr.span(), "unknown choice of speeds", &name, SPEEDS, help);
         }
         (name == "Auto").then(|| expr.span())
+    }
+
+    /// A word of the language; empty where something else stands. What couldn't be read has been told of.
+    fn word(&mut self, expr: &Expr) -> Option<String> {
+        match expr {
+            Expr::Verbatim(_) => {
+                self.report.silent();
+                None
+            }
+            Expr::Path(path) => Some(path.path.get_ident().map(ToString::to_string).unwrap_or_default()),
+            _ => Some(String::new()),
+        }
     }
 
     fn stray_term(&mut self, name: &proc_macro2::Ident) {
