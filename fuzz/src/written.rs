@@ -142,7 +142,7 @@ fn state(of: &Written, at: &HashMap<Symbol, f64>) -> Value {
         "mass": of.run(FunctionKind::MassMatrix, at),
         "bias": of.run(FunctionKind::Bias, at),
         "motion": of.motion(at),
-        "constraints": of.run(FunctionKind::Constraints, at),
+        "constraints": of.gaps(at),
         "jacobian": of.run(FunctionKind::ConstraintJacobian, at),
         "outputs": of.run(FunctionKind::Outputs, at),
         "rates": forward.map(|list| list[freedoms..freedoms + of.model.states.len()].to_vec()),

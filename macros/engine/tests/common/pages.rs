@@ -5,7 +5,8 @@ use std::collections::HashMap;
 use multibody_engine::compile;
 use multibody_engine::contracts::function::FunctionKind;
 use multibody_engine::contracts::symbol::Symbol;
-use multibody_engine::mechanics::loops::structure::{Role, Structure};
+use multibody_engine::mechanics::loops::constraints::is_rate;
+use multibody_engine::mechanics::loops::structure::{Role, Row, Structure};
 use multibody_engine::mechanics::written::Page;
 use multibody_engine::mechanics::{self, analysis};
 use multibody_engine::model::types::{
@@ -238,6 +239,15 @@ impl Written {
         };
         let size = self.model.joints[joint].kind.freedoms();
         self.structure.role(Coordinate { joint, index: component.min(size.saturating_sub(1)) }) != Role::State
+    }
+
+    /// What is left of equations that keep multipliers, as compiled, if there are any; of an equation of velocities its own value.
+    pub(crate) fn gaps(&self, at: &HashMap<Symbol, f64>) -> Option<Vec<f64>> {
+        let positions = self.run(FunctionKind::Constraints, at)?;
+        let rates = self.run(FunctionKind::ConstraintRate, at)?;
+        let both = positions.into_iter().zip(rates);
+        let of = |(&row, (gap, rate)): (&Row, (f64, f64))| if is_rate(&self.model, row) { rate } else { gap };
+        Some(self.structure.rows.iter().zip(both).map(of).collect())
     }
 
     /// The equations of motion with what does not vanish, as compiled.

@@ -6,7 +6,6 @@ use std::collections::HashMap;
 use multibody_engine::contracts::function::FunctionKind;
 use multibody_engine::contracts::symbol::Symbol;
 use multibody_engine::mechanics::freedoms;
-use multibody_engine::mechanics::loops::constraints::is_rate;
 use multibody_engine::mechanics::written::{Line, Page, Subject};
 use multibody_engine::model::types::Coordinate;
 use multibody_engine::symbolic::write::formula::{Formula, Identifier};
@@ -120,14 +119,7 @@ fn look(of: &Written, label: &str, findings: &mut Findings) -> usize {
         let sums: Vec<f64> = (0..n).map(|i| parts[0][i] + parts[1][i] - parts[2][i]).collect();
         compare("bias", &sums, &bias, findings, label);
         compare("equations of motion", &read.motion, &of.motion(&at).unwrap(), findings, label);
-        if let Some(mut gaps) = of.run(FunctionKind::Constraints, &at) {
-            // What is left of an equation of velocities is its own value.
-            let rates = of.run(FunctionKind::ConstraintRate, &at).unwrap();
-            let rows = of.structure.rows.iter().zip(rates);
-            gaps.iter_mut()
-                .zip(rows)
-                .filter(|(_, (row, _))| is_rate(&of.model, **row))
-                .for_each(|(gap, (_, rate))| *gap = rate);
+        if let Some(gaps) = of.gaps(&at) {
             let own: Vec<f64> =
                 read.sides.iter().filter(|(s, _)| matches!(s, Subject::Constraint(_))).map(|entry| entry.1).collect();
             compare("constraints", &own, &gaps, findings, label);
