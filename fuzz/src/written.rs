@@ -76,7 +76,7 @@ fn shown(file: &str, of: &Written, states: usize, random: &mut Random) -> Value 
         })
         .collect();
     let states: Vec<Value> = (0..states).map_while(|_| of.state(random)).map(|at| state(of, &at)).collect();
-    json!({ "file": file, "model": of.model.name.to_string(), "freedoms": of.structure.state.len(), "symbols": symbols, "lines": lines, "states": states })
+    json!({ "file": file, "model": of.model.name.to_string(), "freedoms": of.structure.freedoms(), "symbols": symbols, "lines": lines, "states": states })
 }
 
 fn printed(formula: &Formula) -> Value {
@@ -116,15 +116,16 @@ fn subject(of: &Written, subject: Subject) -> (&'static str, Vec<usize>) {
 fn state(of: &Written, at: &HashMap<Symbol, f64>) -> Value {
     let values: Vec<f64> = of.page.symbols.iter().map(|(_, symbol)| at[symbol]).collect();
     let forward = of.run(FunctionKind::ForwardDynamics, at);
-    // Accelerations, rates of states, multipliers: in this order.
-    let freedoms = of.structure.state.len();
+    // Accelerations, rates of states, rates of positions where velocities are others, multipliers: in this order.
+    let freedoms = of.structure.freedoms();
+    let moved = if of.structure.has_speeds() { of.structure.state.len() } else { 0 };
     let moving = |symbol: Symbol| -> Option<f64> {
         let forward = forward.as_ref()?;
         let place = match symbol {
             // The page has it.
             _ if of.follows(symbol) => return at.get(&symbol).copied(),
             Symbol::Acceleration { joint, component } => place(of, joint, component)?,
-            Symbol::Multiplier { row } => freedoms + of.model.states.len() + row,
+            Symbol::Multiplier { row } => freedoms + of.model.states.len() + moved + row,
             _ => return at.get(&symbol).copied(),
         };
         Some(forward[place])
@@ -149,7 +150,7 @@ fn state(of: &Written, at: &HashMap<Symbol, f64>) -> Value {
     })
 }
 
-/// Where the acceleration of a coordinate of the state stands.
+/// Where the acceleration of a velocity coordinate stands.
 fn place(of: &Written, joint: JointId, component: usize) -> Option<usize> {
-    of.structure.state.iter().position(|coordinate| coordinate.joint == joint && coordinate.index == component)
+    of.structure.speeds().iter().position(|coordinate| coordinate.joint == joint && coordinate.index == component)
 }

@@ -413,7 +413,10 @@ fn too_large(model: &Model, excess: Excess) -> (String, &'static str) {
 fn instead(kind: FunctionKind) -> &'static str {
     match kind {
         FunctionKind::ForwardDynamics | FunctionKind::InverseDynamics | FunctionKind::Bias => "declare fewer bodies",
-        FunctionKind::MassMatrix | FunctionKind::MassMatrixLower | FunctionKind::ConstraintJacobian => {
+        FunctionKind::MassMatrix
+        | FunctionKind::MassMatrixLower
+        | FunctionKind::ConstraintJacobian
+        | FunctionKind::PositionJacobian => {
             "leave it out of `emit`: a matrix grows with the square of the coordinates; or declare fewer bodies"
         }
         FunctionKind::ForwardDerivatives | FunctionKind::InverseDerivatives => {

@@ -1,8 +1,11 @@
 //! Wheels, blades and spheres: constraints of velocities, and contacts that give way.
 
+#[macro_use]
+mod speeds;
+
+mod beside;
 mod blades;
 mod contacts;
 mod hinged;
-mod speeds;
 mod wheels;
 mod whipple;

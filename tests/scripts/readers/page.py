@@ -10,6 +10,8 @@ from .meaning import UNDEFINED, Unreadable
 
 FORMS = {"text": text, "latex": latex, "mathml": mathml}
 TOLERANCE = 1e-12
+# Lines that say what others give.
+IMPLICIT = ("speed", "rolling")
 
 
 class Page:
@@ -47,7 +49,10 @@ class Page:
         given = {symbol for symbol, printed in zip(self.symbols, self.model["symbols"]) if printed["given"]}
         for k, line in enumerate(self.model["lines"]):
             left = line["left"]
-            if line["subject"] in ("motion", "cosine", "sine"):
+            if line["subject"] in ("motion", "cosine", "sine", "speed"):
+                continue
+            if line["subject"] == "rolling":
+                self.call(sympy.Symbol(f"d{k}", real=True), left, f"line {k}")
                 continue
             known = self.names["text"].get(text.name(left["text"]))
             if known in given or known in self.defined.values():
@@ -82,9 +87,13 @@ class Page:
         values = {symbol: list_ for symbol, printed, list_ in given if printed["given"]}
         values[UNDEFINED] = numpy.full(len(states), numpy.nan)
         found = {"cosine": {}, "sine": {}}
-        for k, subject, at, sides in sorted(lines, key=lambda line: line[1] == "motion"):
+        for k, subject, at, sides in sorted(lines, key=lambda line: line[1] in ("motion", *IMPLICIT)):
             right = self.value(k, "right", sides["right"], values, len(states))
-            if subject == "motion":
+            if subject in IMPLICIT:
+                # What rates obey that other lines give: what a speed stands for, an equation of velocities.
+                left = self.value(k, "left", sides["left"], values, len(states)) if subject == "speed" else 0 * right
+                self.check(f"line {k}, {subject}", [right], [left], numpy.maximum(1, numpy.abs(left)))
+            elif subject == "motion":
                 found[subject, *at] = self.value(k, "left", sides["left"], values, len(states)), right
             elif subject in ("cosine", "sine"):
                 angle = self.angle(k, subject, sides["left"])
@@ -217,7 +226,8 @@ class Page:
                 continue
             rate = text.read(rates[name[1] + "˙"]["right"]["text"], self.names["text"])
             # Where a drive moves the loop too, the rate is more than these.
-            velocities = [printed for printed in numbers if printed.endswith("˙") or ".omega[" in printed]
+            speeds = [printed for printed in numbers if printed + "˙" in numbers and printed + "¨" not in numbers]
+            velocities = speeds + [printed for printed in numbers if printed.endswith("˙") or ".omega[" in printed]
             at = {self.symbols[numbers[v]]: after(v) for v in velocities if after(v) in numbers}
             moving = list(rate.free_symbols - slopes)
             place = followed.get(numbers.get(name[1] + "¨"))

@@ -28,6 +28,8 @@ pub enum FunctionKind {
     Constraints,
     /// Equations x DOF, row by row.
     ConstraintJacobian,
+    /// Equations x displacements of the position, row by row, where velocities are others.
+    PositionJacobian,
     /// Time derivatives of the residuals.
     ConstraintRate,
     /// What is left of the second time derivatives of the residuals where accelerations are zero.
@@ -292,7 +294,7 @@ pub struct FunctionRow {
 
 impl FunctionKind {
     /// All of them in the order in which they are derived; the first kinematics and the first group of outputs for all.
-    pub const ALL: [FunctionKind; 34] = [
+    pub const ALL: [FunctionKind; 35] = [
         FunctionKind::ForwardDynamics,
         FunctionKind::InverseDynamics,
         FunctionKind::MassMatrix,
@@ -302,6 +304,7 @@ impl FunctionKind {
         FunctionKind::PotentialEnergy,
         FunctionKind::Constraints,
         FunctionKind::ConstraintJacobian,
+        FunctionKind::PositionJacobian,
         FunctionKind::ConstraintRate,
         FunctionKind::ConstraintBias,
         FunctionKind::Guess,
@@ -420,6 +423,16 @@ impl FunctionKind {
                 Arguments::TIMED,
                 |s| Shape::Matrix(s.rows, s.dof),
                 |_| "The Jacobian `G` of the constraint equations by the velocities.",
+            ),
+            FunctionKind::PositionJacobian => row(
+                Asked::Equations,
+                "position_jacobian",
+                Arguments::TIMED,
+                |s| Shape::Matrix(s.rows, s.displacements),
+                |_| {
+                    "The Jacobian of the constraint equations by displacements of the position; of equations of velocities by the \
+                     rates of positions."
+                },
             ),
             FunctionKind::PositionRates => row(
                 Asked::Speeds,

@@ -39,7 +39,7 @@ use super::loops::known::Decided;
 use super::loops::solutions::Solutions;
 use super::loops::structure::{Modes, Role, Structure};
 use super::results::{euler_singularities, first_order};
-use super::scene::Method;
+use super::scene::{Choices, Method};
 use super::strut::inverse;
 use super::translate::dependencies::Dependencies;
 use super::translate::symbols::{Symbols, freedoms_of};
@@ -231,18 +231,18 @@ fn at_functions(model: &Model, functions: &[Derived]) -> Result<Vec<FunctionKind
 
 /// What to derive, each once, in a fixed order.
 fn kinds(model: &Model, structure: &Structure) -> Vec<FunctionKind> {
+    // Whether positions that move by others than their rates are integrated.
+    let moves = structure.has_speeds() && model.emit.contains(&Request::ForwardDynamics);
     let wanted = |kind: FunctionKind| match (kind, kind.row().asked) {
         (FunctionKind::Kinematics(_), _) => (0..model.kinematics.len()).map(FunctionKind::Kinematics).collect(),
         (FunctionKind::OutputGroup(_), _) => (0..model.output_groups.len()).map(FunctionKind::OutputGroup).collect(),
         // Velocities from momenta are the jump under an impulse: with both, one function serves.
         (FunctionKind::MomentumVelocity, _) if model.emit.contains(&Request::Impulse) => Vec::new(),
         (_, Asked::By { request, .. }) => vec![kind; usize::from(model.emit.contains(&request))],
+        (FunctionKind::PositionJacobian, _) if !moves => Vec::new(),
         (_, Asked::Equations) => vec![kind; usize::from(!structure.rows.is_empty())],
         (FunctionKind::RateDerivatives, _) if !model.emit.contains(&Request::Derivatives) => Vec::new(),
-        (_, Asked::Speeds) => {
-            let forward = model.emit.contains(&Request::ForwardDynamics);
-            vec![kind; usize::from(structure.has_speeds() && forward)]
-        }
+        (_, Asked::Speeds) => vec![kind; usize::from(moves)],
         (_, Asked::Guesses) => vec![kind; usize::from(structure.guesses() > 0)],
         (_, Asked::Outputs) => vec![kind; usize::from(!model.outputs.is_empty())],
         (_, Asked::Found) => Vec::new(),
@@ -311,7 +311,8 @@ impl<'m> Deriving<'m> {
         let told = model.outputs.iter().map(|output| &output.value).chain(model.states.iter().map(|state| &state.rate));
         let kept = Dependencies::of(told).kept(model);
         let mut page = Page::default();
-        self.candidate("", self.way(), &kept, &mut |e| {
+        let way = Choices { for_readers: true, ..self.way() };
+        self.candidate("", way, &kept, &mut |e| {
             page = e.page()?;
             Ok(Results::default())
         })?;

@@ -42,12 +42,20 @@ pub struct Choices {
     pub writing: Writing,
     /// Inverse dynamics by [`crate::dynamics::lumped`].
     pub lumped: bool,
+    /// Small systems of rates are solved by quotients of determinants, which people can read.
+    pub for_readers: bool,
 }
 
 impl Choices {
     /// As good as any where cost is of no concern.
-    pub const PLAIN: Choices =
-        Choices { style: Style::Nested, method: Method::Composite, axes: None, writing: Writing::PLAIN, lumped: false };
+    pub const PLAIN: Choices = Choices {
+        style: Style::Nested,
+        method: Method::Composite,
+        axes: None,
+        writing: Writing::PLAIN,
+        lumped: false,
+        for_readers: false,
+    };
 }
 
 /// What all files of this stage read.

@@ -7,7 +7,7 @@ use multibody_engine::contracts::function::FunctionKind;
 use multibody_engine::contracts::symbol::Symbol;
 use multibody_engine::mechanics::loops::constraints::is_rate;
 use multibody_engine::mechanics::loops::structure::{Role, Row, Structure};
-use multibody_engine::mechanics::written::Page;
+use multibody_engine::mechanics::written::{Page, Subject};
 use multibody_engine::mechanics::{self, analysis};
 use multibody_engine::model::types::{
     Coordinate, Docs, Expr, ExprNode, InstanceId, JointId, Model, Order, Output, Place, Request, Type,
@@ -48,15 +48,19 @@ pub(crate) struct Written {
     following: Vec<(Coordinate, Order)>,
 }
 
-/// Coordinates outside of the state with their rates and accelerations.
+/// Coordinates outside of the state with their rates and accelerations, and those of coordinates whose rates follow.
 fn following(model: &Model, structure: &Structure) -> Vec<(Coordinate, Order)> {
     let joints = (0..model.joints.len()).map(JointId).filter(|&joint| !model.joints[joint].kind.has_quaternion());
     let coordinates =
         joints.flat_map(|joint| (0..model.joints[joint].kind.freedoms()).map(move |index| Coordinate { joint, index }));
-    let follow = coordinates.filter(|&coordinate| structure.role(coordinate) != Role::State);
-    follow
-        .flat_map(|coordinate| [Order::Position, Order::Rate, Order::Acceleration].map(|order| (coordinate, order)))
-        .collect()
+    let orders = |coordinate: Coordinate| -> &[Order] {
+        match structure.role(coordinate) {
+            Role::State if structure.rates.unknowns.contains(&coordinate) => &[Order::Rate, Order::Acceleration],
+            Role::State => &[],
+            _ => &[Order::Position, Order::Rate, Order::Acceleration],
+        }
+    };
+    coordinates.flat_map(|coordinate| orders(coordinate).iter().map(move |&order| (coordinate, order))).collect()
 }
 
 fn output_of(list: &[(Coordinate, Order)]) -> Output {
@@ -88,13 +92,14 @@ fn solves_with_pivots(model: &Model) -> bool {
 impl Written {
     /// Of a model with the functions that its equations speak of, and `more`; None where it has none, or no formulas because
     /// Newton's method closes its loops, a user's program drives it, or it solves systems with pivots, whose unknowns have names
-    /// and no lines; nor where velocities are no rates of coordinates, whose pages are not compared yet.
+    /// and no lines: among these are rates that follow from speeds or equations of velocities, unless they are few.
     pub(crate) fn new(mut model: Model, more: &[Request]) -> Option<Written> {
         model.emit = vec![Request::MassMatrix, Request::Bias, Request::InverseDynamics];
         model.emit.extend(more);
         let structure = analysis::analyse(&model).ok()?;
-        if structure.has_speeds() {
-            return None;
+        if structure.has_speeds() && !structure.rows.is_empty() {
+            // It has how equations change with positions.
+            model.emit.push(Request::ForwardDynamics);
         }
         if !structure.rows.is_empty() {
             model.emit.push(Request::Residual);
@@ -112,6 +117,15 @@ impl Written {
         let (structure, compiled) = compile(&model).ok()?;
         model.outputs.truncate(own);
         let Ok(page) = mechanics::page(&model, &structure) else { panic!("{}: no page", model.name) };
+        // Rates without a line are found with pivots.
+        let has_line = |coordinate: &Coordinate| {
+            let lines = page.sections.iter().flat_map(|section| &section.lines);
+            lines.map(|line| line.subject).any(|subject| subject == Subject::Rate(*coordinate))
+        };
+        let quaternion = |c: &&Coordinate| !model.joints[c.joint].kind.has_quaternion();
+        if !structure.rates.unknowns.iter().filter(quaternion).all(has_line) {
+            return None;
+        }
         Some(Written { model, structure, compiled, page, following })
     }
 
@@ -189,7 +203,8 @@ impl Written {
             if gaps.iter().all(|gap| gap.abs() < CLOSED) {
                 return Some(at);
             }
-            let slopes = self.run(FunctionKind::ConstraintJacobian, &at)?;
+            let of_positions = self.run(FunctionKind::PositionJacobian, &at);
+            let slopes = of_positions.or_else(|| self.run(FunctionKind::ConstraintJacobian, &at))?;
             let columns = slopes.len() / gaps.len();
             let rows: Vec<&[f64]> = slopes.chunks(columns).collect();
             // The shortest step; what keeps redundant equations solvable is lost in the next one.
@@ -231,14 +246,21 @@ impl Written {
 
     /// Whether a symbol has an equation on the page, or none at all.
     pub(crate) fn follows(&self, symbol: Symbol) -> bool {
-        let (joint, component) = match symbol {
-            Symbol::Position { joint, component }
-            | Symbol::Velocity { joint, component }
-            | Symbol::Acceleration { joint, component } => (joint, component),
+        let (joint, component, is_rate) = match symbol {
+            Symbol::Position { joint, component } => (joint, component, false),
+            Symbol::Velocity { joint, component } | Symbol::Acceleration { joint, component } => {
+                (joint, component, true)
+            }
             _ => return false,
         };
+        // Speeds are behind all joints.
+        if joint.0 >= self.model.joints.len() {
+            return false;
+        }
         let size = self.model.joints[joint].kind.freedoms();
-        self.structure.role(Coordinate { joint, index: component.min(size.saturating_sub(1)) }) != Role::State
+        let coordinate = Coordinate { joint, index: component.min(size.saturating_sub(1)) };
+        let is_state = self.structure.role(coordinate) == Role::State;
+        !is_state || is_rate && self.structure.rates.unknowns.contains(&coordinate)
     }
 
     /// What is left of equations that keep multipliers, as compiled, if there are any; of an equation of velocities its own value.
@@ -253,6 +275,6 @@ impl Written {
     /// The equations of motion with what does not vanish, as compiled.
     pub(crate) fn motion(&self, at: &HashMap<Symbol, f64>) -> Option<Vec<f64>> {
         let found = self.run(FunctionKind::Residual, at).or_else(|| self.run(FunctionKind::InverseDynamics, at));
-        found.map(|list| list[..self.structure.state.len()].to_vec())
+        found.map(|list| list[..self.structure.freedoms()].to_vec())
     }
 }

@@ -87,6 +87,19 @@ fn redundant_blades() {
     assert_eq!(left.dropped.len(), 1);
 }
 
+/// Beside equations that keep multipliers all rates count, and these equations none.
+#[test]
+fn beside_multipliers() {
+    let (model, kept) = structure(&format!(
+        "{} constraint blade = sled.express(sled.velocity).y - 0.3 * plane.angle.rate;
+         speed ahead = sled.express(sled.velocity).x;
+         speed aside = sled.express(sled.velocity).y;",
+        SLED.replace("Reduced", "Multipliers")
+    ));
+    assert_eq!(names(&model, kept.speeds()), ["plane.angle", "ahead", "aside"]);
+    assert_eq!((kept.rows.len(), kept.rates.rows.len(), kept.rates.held.len()), (1, 0, 0));
+}
+
 #[test]
 fn mistakes() {
     let blade = "constraint blade = sled.express(sled.velocity).y;";
@@ -121,8 +134,8 @@ fn mistakes() {
             "the speed `v` follows from other speeds and from the constraints",
         ),
         (
-            format!("{} {blade} speed u = plane.angle.rate;", SLED.replace("Reduced", "Multipliers")),
-            "speeds and equations that keep multipliers don't go together",
+            format!("{} {blade} speed u = sled.express(sled.velocity).x;", SLED.replace("Reduced", "Multipliers")),
+            "1 speed doesn't determine the rates that it reads: `plane.x.rate`, `plane.y.rate`",
         ),
         (
             format!("{ARM} speed u = a.rate + 0.2; emit forward_dynamics, momentum;"),

@@ -32,6 +32,13 @@ fn name(formula: &Formula) -> Option<&Identifier> {
 struct Read {
     sides: Vec<(Subject, f64)>,
     motion: Vec<f64>,
+    /// What is left of what speeds stand for, and of equations of velocities, with the rates that follow from them.
+    implied: Vec<f64>,
+}
+
+/// Whether a line says what rates obey that other lines give.
+fn is_implicit(line: &Line) -> bool {
+    matches!(line.subject, Subject::Speed(_) | Subject::Rolling(_))
 }
 
 fn read(of: &Written, at: &HashMap<Symbol, f64>) -> Read {
@@ -42,10 +49,13 @@ fn read(of: &Written, at: &HashMap<Symbol, f64>) -> Read {
         .filter(|(_, symbol)| !of.follows(*symbol))
         .map(|(name, symbol)| (name.clone(), at[symbol]))
         .collect();
-    let mut sides = Vec::new();
+    let (mut sides, mut implied) = (Vec::new(), Vec::new());
     let mut cosines: HashMap<Coordinate, f64> = HashMap::new();
     for line in of.page.sections.iter().flat_map(|section| &section.lines) {
         if matches!(line.subject, Subject::Motion(_)) {
+            continue;
+        }
+        if is_implicit(line) {
             continue;
         }
         let right = value(&line.equation.right, &known);
@@ -59,9 +69,13 @@ fn read(of: &Written, at: &HashMap<Symbol, f64>) -> Read {
             (_, left) => known.extend(name(left).map(|name| (name.clone(), right))),
         }
     }
+    for line in lines(&of.page).filter(|line| is_implicit(line)) {
+        let wanted = name(&line.equation.left).and_then(|name| known.get(name)).copied();
+        implied.push(value(&line.equation.right, &known) - wanted.unwrap_or(0.0));
+    }
     let rows = lines(&of.page).filter(|line| matches!(line.subject, Subject::Motion(_)));
     let motion = rows.map(|line| value(&line.equation.left, &known) - value(&line.equation.right, &known)).collect();
-    Read { sides, motion }
+    Read { sides, motion, implied }
 }
 
 fn lines(page: &Page) -> impl Iterator<Item = &Line> {
@@ -99,7 +113,7 @@ fn chosen(read: &Read, f: impl Fn(Subject) -> Option<usize>) -> Vec<f64> {
 
 /// Compares one model; the number of states looked at.
 fn look(of: &Written, label: &str, findings: &mut Findings) -> usize {
-    let n = of.structure.state.len();
+    let n = of.structure.freedoms();
     let mut random = Random(11);
     let mut looked = 0;
     while looked < STATES
@@ -118,6 +132,7 @@ fn look(of: &Written, label: &str, findings: &mut Findings) -> usize {
         ];
         let sums: Vec<f64> = (0..n).map(|i| parts[0][i] + parts[1][i] - parts[2][i]).collect();
         compare("bias", &sums, &bias, findings, label);
+        compare("equations of velocities", &read.implied, &vec![0.0; read.implied.len()], findings, label);
         compare("equations of motion", &read.motion, &of.motion(&at).unwrap(), findings, label);
         if let Some(gaps) = of.gaps(&at) {
             let own: Vec<f64> =

@@ -28,6 +28,7 @@ pub fn skeleton(checked: &Checked) -> TokenStream {
         (FunctionKind::OutputGroup(_), _) => (0..model.output_groups.len()).map(FunctionKind::OutputGroup).collect(),
         // Its struct is there only where it is asked for.
         (FunctionKind::Poses, _) => vec![kind; usize::from(model.shows_poses())],
+        (FunctionKind::PositionJacobian, _) if !structure.has_speeds() => Vec::new(),
         (_, Asked::Equations) if structure.rows.is_empty() => Vec::new(),
         (_, Asked::Guesses) if structure.guesses() == 0 => Vec::new(),
         (_, Asked::Speeds) if !structure.has_speeds() => Vec::new(),

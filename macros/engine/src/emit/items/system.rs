@@ -206,15 +206,25 @@ fn scales(layout: &Layout<'_>) -> [f64; 2] {
     [scales.iter().fold(f64::MAX, |a, &b| a.min(b)), scales.iter().fold(0.0, |a, &b| b.max(a))]
 }
 
+/// Whether constraint equations depend on nothing but time, positions and velocities; nothing where they were not derived.
+fn takes_what_is_known(context: &Context<'_>) -> Option<bool> {
+    let takes =
+        |kind: FunctionKind| context.function(kind).map(|function| functions::arguments(function) == kind.row().takes);
+    let own = [FunctionKind::Constraints, FunctionKind::ConstraintJacobian, FunctionKind::ConstraintRate].map(takes);
+    let all: Option<Vec<bool>> = own.into_iter().collect();
+    Some(all?.into_iter().chain(takes(FunctionKind::PositionJacobian)).all(|known| known))
+}
+
+/// The method that has the constraint equations' derivatives by displacements of the position.
+fn of_displacements(context: &Context<'_>) -> Ident {
+    let moved = context.function(FunctionKind::PositionJacobian).is_some();
+    names::ident(if moved { "position_jacobian" } else { "constraint_jacobian" })
+}
+
 /// Expands to `let opening = ..;` of equations with multipliers.
 fn constrained_start(context: &Context<'_>, reads: &mut [bool; 2]) -> Option<TokenStream> {
     let layout = &context.layout;
-    for kind in [FunctionKind::Constraints, FunctionKind::ConstraintRate, FunctionKind::ConstraintJacobian] {
-        if functions::arguments(context.function(kind)?) != kind.row().takes {
-            return None;
-        }
-    }
-    if layout.rows() == 0 {
+    if !takes_what_is_known(context)? || layout.rows() == 0 {
         return None;
     }
     reads[0] = true;
@@ -239,19 +249,25 @@ fn constrained_start(context: &Context<'_>, reads: &mut [bool; 2]) -> Option<Tok
         });
     }
     let units = numbers(structure.units.clone());
-    let velocities = results::vector_type(layout, layout.dof());
+    let sized = results::vector_type(layout, structure.state.len());
+    let jacobian = of_displacements(context);
+    // Velocities count as what they move.
+    let rates = match context.function(FunctionKind::PositionRates) {
+        Some(_) => quote!(#krate::System::position_rates(self, #t, #state)),
+        None => quote!(#state.v),
+    };
     Some(quote! {
-        let jacobian = self.constraint_jacobian(#t, &#state.q);
+        let jacobian = self.#jacobian(#t, &#state.q);
         let gauge =
             #krate::Gauge { jacobian: jacobian.as_slice(), scales: &#scales, kinds: &#kinds, units: &#units };
-        let sizes: #velocities = #krate::Configuration::magnitude(&#state.q).into();
+        let sizes: #sized = #krate::Configuration::magnitude(&#state.q).into();
         let opening = #krate::Opening::of_positions(
             self.constraints(#t, &#state.q).as_slice(),
             &gauge,
             sizes.as_slice(),
         );
         let opening = opening.or(|| {
-            let velocities: #velocities = #state.v.into();
+            let velocities: #sized = #rates.into();
             let rest = State { v: ::core::default::Default::default(), ..*#state };
             #krate::Opening::of_velocities(
                 self.constraint_rate(#t, #state).as_slice(),
@@ -293,17 +309,12 @@ pub(super) fn granted_names(layout: &Layout<'_>) -> Vec<String> {
 /// trait knows.
 fn constrained(context: &Context<'_>) -> Option<TokenStream> {
     let layout = &context.layout;
-    for kind in [FunctionKind::Constraints, FunctionKind::ConstraintJacobian, FunctionKind::ConstraintRate] {
-        if functions::arguments(context.function(kind)?) != kind.row().takes {
-            return None;
-        }
-    }
-    if layout.rows() == 0 || layout.dof() == 0 {
+    if !takes_what_is_known(context)? || layout.rows() == 0 || layout.dof() == 0 {
         return None;
     }
     let krate = layout.krate();
     let residual = results::vector_type(layout, layout.rows());
-    let weights = results::vector_type(layout, layout.dof());
+    let of_velocities = results::vector_type(layout, layout.dof());
     let groups = layout.structure.row_groups(layout.model);
     let least_norm = names::ident(if groups.is_empty() { "least_norm" } else { "least_norm_in_groups" });
     let groups = groups_argument(&groups);
@@ -314,23 +325,29 @@ fn constrained(context: &Context<'_>) -> Option<TokenStream> {
             }
         }
     });
-    let least = context.function(FunctionKind::Displacement).map(|function| {
-        let time = functions::arguments(function).has_time();
-        let [t, unread] = ["t", "_t"].map(names::ident);
-        let (time, passed) = if time { (&t, Some(quote!(#t,))) } else { (&unread, None) };
-        let (columns, rank) = (layout.dof(), Literal::usize_unsuffixed(layout.dof()));
-        let columns = Literal::usize_unsuffixed(columns);
-        quote! {
-            fn least_correction(&self, #time: T, q: &Position<T>, residual: &#residual) -> ::core::option::Option<(Velocity<T>, T)> {
-                let found = self.least_displacement(#passed q, residual);
-                ::core::option::Option::Some((found.fixed_rows::<#columns>(0).into_owned().into(), found[#rank]))
-            }
-
-            fn least_velocity_correction(&self, t: T, state: &State<T>, residual: &#residual) -> ::core::option::Option<(Velocity<T>, T)> {
-                #krate::Constrained::least_correction(self, t, &state.q, residual)
-            }
-        }
-    });
+    let least = least(context, &residual);
+    let moved = context.function(FunctionKind::PositionJacobian).is_some();
+    let jacobian = of_displacements(context);
+    let (displacement, sized) = match moved {
+        true => (names::ident("Rates"), results::vector_type(layout, layout.structure.state.len())),
+        false => (names::ident("Velocity"), of_velocities.clone()),
+    };
+    let of_velocities = match moved {
+        true => quote! {
+            let weights: #of_velocities = (*weights).into();
+            let jacobian = self.constraint_jacobian(t, &state.q);
+            let (change, rank) = #krate::linear::#least_norm(&jacobian, residual, &weights #groups);
+            (change.into(), rank)
+        },
+        false => quote!(#krate::Constrained::correction(self, t, &state.q, residual, weights)),
+    };
+    let along = match moved {
+        true => quote! {
+            let d: #sized = (*d).into();
+            self.position_jacobian(t, &state.q) * d
+        },
+        false => quote!(#krate::Constrained::constraint_rate_along(self, t, state, d)),
+    };
     Some(quote! {
         impl<T: Real> #krate::Constrained for Model<T> {
             type Residual = #residual;
@@ -350,10 +367,10 @@ fn constrained(context: &Context<'_>) -> Option<TokenStream> {
                 t: T,
                 q: &Position<T>,
                 residual: &#residual,
-                weights: &Velocity<T>,
-            ) -> (Velocity<T>, T) {
-                let weights: #weights = (*weights).into();
-                let jacobian = self.constraint_jacobian(t, q);
+                weights: &#displacement<T>,
+            ) -> (#displacement<T>, T) {
+                let weights: #sized = (*weights).into();
+                let jacobian = self.#jacobian(t, q);
                 let (change, rank) = #krate::linear::#least_norm(&jacobian, residual, &weights #groups);
                 (change.into(), rank)
             }
@@ -365,14 +382,49 @@ fn constrained(context: &Context<'_>) -> Option<TokenStream> {
                 residual: &#residual,
                 weights: &Velocity<T>,
             ) -> (Velocity<T>, T) {
-                #krate::Constrained::correction(self, t, &state.q, residual, weights)
+                #of_velocities
             }
 
-            fn constraints_along(&self, t: T, state: &State<T>, d: &Velocity<T>) -> #residual {
-                #krate::Constrained::constraint_rate_along(self, t, state, d)
+            fn constraints_along(&self, t: T, state: &State<T>, d: &#displacement<T>) -> #residual {
+                #along
             }
 
             #least
+        }
+    })
+}
+
+/// Expands to corrections by the zeros of the Jacobian, where the model is large: of positions too where these move by the velocities.
+fn least(context: &Context<'_>, residual: &TokenStream) -> Option<TokenStream> {
+    let layout = &context.layout;
+    let krate = layout.krate();
+    let function = context.function(FunctionKind::Displacement)?;
+    let timed = functions::arguments(function).has_time();
+    let [t, unread] = ["t", "_t"].map(names::ident);
+    let (time, passed) = if timed { (&t, Some(quote!(#t,))) } else { (&unread, None) };
+    let [columns, rank] = [layout.dof(); 2].map(Literal::usize_unsuffixed);
+    let found = |q: TokenStream| {
+        quote! {
+            let found = self.least_displacement(#passed #q, residual);
+            ::core::option::Option::Some((found.fixed_rows::<#columns>(0).into_owned().into(), found[#rank]))
+        }
+    };
+    if layout.structure.has_speeds() {
+        let found = found(quote!(&state.q));
+        return Some(quote! {
+            fn least_velocity_correction(&self, #time: T, state: &State<T>, residual: &#residual) -> ::core::option::Option<(Velocity<T>, T)> {
+                #found
+            }
+        });
+    }
+    let found = found(quote!(q));
+    Some(quote! {
+        fn least_correction(&self, #time: T, q: &Position<T>, residual: &#residual) -> ::core::option::Option<(Velocity<T>, T)> {
+            #found
+        }
+
+        fn least_velocity_correction(&self, t: T, state: &State<T>, residual: &#residual) -> ::core::option::Option<(Velocity<T>, T)> {
+            #krate::Constrained::least_correction(self, t, &state.q, residual)
         }
     })
 }

@@ -1,8 +1,8 @@
 //! Stage `mechanics`: which velocities a model has, where they are not the rates of all coordinates of its state.
 //!
 //! In: equations and speeds of the user's choice as numbers, closed configurations. Out: velocity coordinates, and the rates that follow
-//! from them. At any configuration the equations of positions J, those of velocities A that are eliminated and the speeds U leave the
-//! rest of all motions free. Rates of as many coordinates as that has dimensions are velocities too: those for which the
+//! from them. At any configuration the equations of positions J and those of velocities A that are eliminated, without those that keep
+//! multipliers, and the speeds U leave the rest of all motions free. Rates of as many coordinates as that has dimensions are velocities too: those for which the
 //! volume that the rest spans in them is greatest where it is least, over all configurations (of an orthonormal basis of the rest, the
 //! determinant of their rows), so that the equations for the other rates are as far from singular as any choice leaves them.
 //!
@@ -35,11 +35,6 @@ const MOST_CHOICES: usize = 20_000;
 pub(super) fn choose(model: &Model, problem: &Problem, structure: &mut Structure) -> Vec<Complaint> {
     if structure.rates.rows.is_empty() && model.speeds.is_empty() {
         return Vec::new();
-    }
-    if !structure.rows.is_empty() && !model.speeds.is_empty() {
-        let message = "speeds and equations that keep multipliers don't go together".to_owned();
-        let help = Some("write `formulation { constraints: Reduced }`, or leave the speeds out".to_owned());
-        return model.speeds.first().map(|speed| Complaint { at: speed.site(), message, help }).into_iter().collect();
     }
     let refused = refused(model);
     if !refused.is_empty() {
@@ -196,10 +191,10 @@ impl Choice<'_> {
         Some(complement(&basis.iter().collect::<Vec<_>>(), width))
     }
 
-    /// Equations of positions, eliminated ones of velocities, and speeds if they count, without what drives give.
+    /// Equations of positions and of velocities that are eliminated, and speeds if they count, without what drives give.
     fn rows_at(&self, point: &Point, with_speeds: bool) -> Vec<Vec<f64>> {
         let problem = self.problem;
-        let own = |row: Row| self.structure.independent.contains(&row);
+        let own = |row: Row| self.structure.independent.contains(&row) && !self.structure.rows.contains(&row);
         let of_positions: Vec<usize> = (0..problem.equations.len())
             .filter(|&k| matches!(problem.equations[k].source, Source::Row(row) if own(row)))
             .collect();
@@ -312,7 +307,15 @@ impl Choice<'_> {
             1 => format!("1 speed doesn't determine the rates that it reads: {names}"),
             speeds => format!("{speeds} speeds don't determine the rates that they read: {names}"),
         };
-        let help = "as many speeds are needed as the constraints leave independent among these; the rate of a joint may be one";
+        let help = match self.structure.rows.is_empty() {
+            true => {
+                "as many speeds are needed as the constraints leave independent among these; the rate of a joint may be one"
+            }
+            false => {
+                "as many speeds are needed as there are rates, since equations that keep multipliers leave these independent; the \
+                 rate of a joint may be one"
+            }
+        };
         let at = self.model.speeds.last().map_or(self.model.site(), Sited::site);
         Complaint { at, message, help: Some(help.to_owned()) }
     }

@@ -59,6 +59,7 @@ impl Deriving<'_> {
             FunctionKind::PotentialEnergy => (vec!["potential_energy".to_owned()], "energy"),
             FunctionKind::Constraints => (Vec::new(), "gap"),
             FunctionKind::ConstraintJacobian => (entries("slope"), "slope"),
+            FunctionKind::PositionJacobian => (Vec::new(), "slope"),
             FunctionKind::ConstraintRate => (Vec::new(), "gap_rate"),
             FunctionKind::ConstraintBias => (Vec::new(), "gap_bias"),
             FunctionKind::Residual => (of_state("effort"), "gap"),

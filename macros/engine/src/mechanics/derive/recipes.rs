@@ -134,6 +134,7 @@ fn recipe(kind: FunctionKind, solves_inputs: bool) -> Recipe {
         ),
         F::Constraints => (NONE, const { &[Written(WITHOUT_CHOICE, |e, r| Results::vector(e.constraints(r)))] }),
         F::ConstraintJacobian => (NONE, const { &[Written(WITHOUT_CHOICE, jacobian)] }),
+        F::PositionJacobian => (NONE, const { &[Written(WITHOUT_CHOICE, position_jacobian)] }),
         F::ConstraintRate => (NONE, const { &[Written(WITHOUT_CHOICE, |e, r| Results::vector(e.constraint_rate(r)))] }),
         F::ConstraintBias => (NONE, const { &[Written(WITHOUT_CHOICE, |e, r| Results::vector(e.constraint_bias(r)))] }),
         F::Residual => (
@@ -241,6 +242,11 @@ fn lower(entries: Vec<Scalar>) -> Results<Scalar> {
 fn jacobian(e: &mut Equations<'_>, reduction: &Reduction) -> Results<Scalar> {
     let (rows, columns) = (e.scene.structure.rows.len(), e.scene.structure.freedoms());
     Results::matrix(rows, columns, e.constraint_jacobian(reduction))
+}
+
+fn position_jacobian(e: &mut Equations<'_>, reduction: &Reduction) -> Results<Scalar> {
+    let (rows, columns) = (e.scene.structure.rows.len(), e.scene.structure.state.len());
+    Results::matrix(rows, columns, e.position_jacobian(reduction))
 }
 
 fn centroidal(e: &mut Equations<'_>) -> Found {

@@ -61,8 +61,8 @@ impl Equations<'_> {
             second.push(-self.g.substitute(&[acceleration], &unaccelerated)[0]);
         }
         if !unknowns.is_empty() {
-            let [first, second] =
-                self.solve_rates(unknowns.len(), &matrix, [&first, &second], Self::eliminate_strictly);
+            let solve = if self.scene.way.for_readers { Self::solve_for_readers } else { Self::eliminate_strictly };
+            let [first, second] = self.solve_rates(unknowns.len(), &matrix, [&first, &second], solve);
             all.add(&unknowns, &first, &second);
         }
         // One margin for all of them.

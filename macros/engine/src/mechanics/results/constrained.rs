@@ -354,6 +354,24 @@ impl Equations<'_> {
         self.rows(reduction).jacobian.concat()
     }
 
+    /// By displacements of the state's position, row by row; of equations of velocities by rates of the state's position.
+    pub(in crate::mechanics) fn position_jacobian(&mut self, reduction: &Reduction) -> Vec<Scalar> {
+        let structure = Rc::clone(&self.scene.structure);
+        let map = self.displacement_map(reduction);
+        let velocities = self.all_velocities();
+        let mut entries = Vec::with_capacity(structure.rows.len() * structure.state.len());
+        for &row in &structure.rows {
+            let (rate, _) = self.row_rates(row);
+            for (at, &coordinate) in structure.state.iter().enumerate() {
+                let mut seeds = vec![(self.velocity_symbols(coordinate)[0], Scalar::ONE)];
+                let dependents = reduction.displacements.iter();
+                seeds.extend(dependents.map(|&(dependent, _)| (velocities[dependent], map[dependent][at])));
+                entries.push(self.g.derivative(rate, &seeds));
+            }
+        }
+        self.finish(reduction, &entries)
+    }
+
     pub(in crate::mechanics) fn constraint_rate(&mut self, reduction: &Reduction) -> Vec<Scalar> {
         let structure = Rc::clone(&self.scene.structure);
         let mut rates = Vec::with_capacity(structure.rows.len());

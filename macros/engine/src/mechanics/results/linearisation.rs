@@ -199,7 +199,7 @@ impl Equations<'_> {
     }
 
     /// How coordinates of the tree move with the positions of the state, whatever velocities are; nothing where none follows.
-    fn displacement_map(&mut self, reduction: &Reduction) -> Vec<Vec<Scalar>> {
+    pub(super) fn displacement_map(&mut self, reduction: &Reduction) -> Vec<Vec<Scalar>> {
         if reduction.displacements.is_empty() {
             return Vec::new();
         }

@@ -147,15 +147,20 @@ impl Equations<'_> {
         }
     }
 
-    /// Rates of a ball's hinges and their accelerations, with positions and rates on the tree; and det(E).
-    pub(in crate::mechanics) fn hinge_rates(&mut self, ball: &HingedBall) -> ([Scalar; 3], [Scalar; 3], Scalar) {
-        let [a, b, c] = ball.axes;
-        let speeds = [0, 1, 2].map(|k| self.scene.symbols.speeds[ball.speed + k]);
+    /// What the rates of a ball's hinges give its speeds, E q'.
+    pub(in crate::mechanics) fn turned_by_hinges(&mut self, ball: &HingedBall) -> [Scalar; 3] {
         let rates = ball.hinges.map(|hinge| self.coordinate_symbols(hinge)[1]);
         let g = &mut self.g;
         let turned: Vec<Vector> = ball.axes.iter().zip(rates).map(|(&axis, rate)| g.scale(rate, axis)).collect();
         let turned = g.sum_vectors(&turned);
-        let turned = g.components(turned);
+        g.components(turned)
+    }
+
+    /// Rates of a ball's hinges and their accelerations, with positions and rates on the tree; and det(E).
+    pub(in crate::mechanics) fn hinge_rates(&mut self, ball: &HingedBall) -> ([Scalar; 3], [Scalar; 3], Scalar) {
+        let [a, b, c] = ball.axes;
+        let speeds = [0, 1, 2].map(|k| self.scene.symbols.speeds[ball.speed + k]);
+        let turned = self.turned_by_hinges(ball);
         let drift = self.time_derivative(&turned);
         let g = &mut self.g;
         let across = [g.cross(b, c), g.cross(c, a), g.cross(a, b)];

@@ -152,13 +152,31 @@ impl Equations<'_> {
     pub(super) fn solved_system(&mut self, system: Vec<Scalar>, size: usize, index: usize) -> Scalar {
         if size <= MOST_WRITTEN {
             let (matrix, sides) = system.split_at(size * size);
-            let rows: Vec<Vec<Scalar>> = matrix.chunks(size).map(<[Scalar]>::to_vec).collect();
-            let mut replaced = rows.clone();
-            replaced.iter_mut().zip(sides).for_each(|(row, &side)| row[index] = side);
-            let (above, below) = (self.determinant(&replaced), self.determinant(&rows));
-            return self.g.div(above, below);
+            return self.quotient(size, matrix, sides, index);
         }
         self.g.block_outputs(BlockKind::Solve { size, symmetric: false, groups: [].into() }, &system)[index]
+    }
+
+    /// The unknowns of a square system for people to read: quotients where it is small.
+    pub(in crate::mechanics) fn solve_for_readers(
+        &mut self,
+        size: usize,
+        matrix: &[Scalar],
+        side: &[Scalar],
+    ) -> Vec<Scalar> {
+        match size <= MOST_WRITTEN {
+            true => (0..size).map(|index| self.quotient(size, matrix, side, index)).collect(),
+            false => self.eliminate_strictly(size, matrix, side),
+        }
+    }
+
+    /// One unknown as a quotient of determinants (Cramer's rule).
+    fn quotient(&mut self, size: usize, matrix: &[Scalar], sides: &[Scalar], index: usize) -> Scalar {
+        let rows: Vec<Vec<Scalar>> = matrix.chunks(size).map(<[Scalar]>::to_vec).collect();
+        let mut replaced = rows.clone();
+        replaced.iter_mut().zip(sides).for_each(|(row, &side)| row[index] = side);
+        let (above, below) = (self.determinant(&replaced), self.determinant(&rows));
+        self.g.div(above, below)
     }
 
     /// A solution of an equation in one unknown.

@@ -3,11 +3,13 @@
 //! In: definitions of dependent coordinates. Out: [`Following`]: slopes and what is left of accelerations, each with a symbol of its
 //! own, and by these the efforts and the mass matrix of the state.
 
+use std::collections::HashMap;
 use std::rc::Rc;
 
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::constraints::coordinate_name;
 use crate::mechanics::loops::reduction::{Definition, Map, Reduction};
+use crate::symbolic::fingerprint::Print;
 use crate::symbolic::graph::{Graph, Scalar, ScalarNode};
 use crate::symbolic::write::formula::Identifier;
 
@@ -56,9 +58,7 @@ impl Following {
         }
         for (k, j) in slopes {
             let definition = &definitions[k];
-            let mut seeds: Vec<(Scalar, Scalar)> =
-                e.scene.symbols.velocities.concat().into_iter().zip(following.map.iter().map(|row| row[j])).collect();
-            seeds.extend(e.model_speed(speeds[j]).map(|speed| (speed, Scalar::ONE)));
+            let seeds = following.along(e, j);
             let slope = e.g.derivative(definition.rate, &seeds);
             let value = e.put_in_stand_ins(&[slope])[0];
             let model = e.scene.model;
@@ -89,12 +89,29 @@ impl Following {
         following
     }
 
-    /// Symbols of what is a number or a name already go again.
+    /// How the tree moves with one velocity coordinate.
+    pub(super) fn along(&self, e: &Equations<'_>, j: usize) -> Vec<(Scalar, Scalar)> {
+        let of_joints = e.scene.symbols.velocities.concat().into_iter();
+        let mut seeds: Vec<(Scalar, Scalar)> = of_joints.zip(self.map.iter().map(|row| row[j])).collect();
+        let speed = e.scene.structure.speeds()[j];
+        seeds.extend(e.model_speed(speed).map(|speed| (speed, Scalar::ONE)));
+        seeds
+    }
+
+    /// Symbols of what is a number or a name already, or its sine or cosine, go again.
     fn settle(&mut self, e: &mut Equations<'_>) {
-        let short = |g: &Graph, value: Scalar| matches!(g.node(value), ScalarNode::Literal(_) | ScalarNode::Symbol(_));
+        let angles = e.scene.symbols.positions.concat();
+        let points: Vec<Scalar> = angles.iter().flat_map(|&angle| [e.g.cos(angle), e.g.sin(angle)]).collect();
+        let points: HashMap<Print, Scalar> =
+            points.into_iter().flat_map(|x| [x, -x]).map(|x| (e.g.print(x), x)).collect();
+        let short = |g: &Graph, value: Scalar| match g.node(value) {
+            ScalarNode::Literal(_) | ScalarNode::Symbol(_) => Some(value),
+            _ => points.get(&g.print(value)).copied(),
+        };
         loop {
-            let Some(at) = self.named.iter().position(|named| short(&e.g, named.value)) else { return };
-            let Named { symbol, value, .. } = self.named.remove(at);
+            let found = self.named.iter().enumerate().find_map(|(at, named)| Some((at, short(&e.g, named.value)?)));
+            let Some((at, value)) = found else { return };
+            let Named { symbol, .. } = self.named.remove(at);
             let put_in = e.map(&[(symbol, value)]);
             for named in &mut self.named {
                 named.value = e.g.substitute(&[named.value], &put_in)[0];

@@ -61,7 +61,7 @@ impl Equations<'_> {
         writer.drives(self, &reduction);
         writer.velocities(self);
         writer.followers(self, &reduction, &following);
-        writer.constraints(self);
+        writer.constraints(self, &following);
         writer.motion(self, &following);
         writer.own(self, &reduction, &following);
         writer.page.without_raw_names();
@@ -80,7 +80,7 @@ struct Sections {
     letters: Letters,
     /// Of closed forms what has no line yet.
     solved: Solved,
-    /// Equations and coordinates of the state whose slope is not zero.
+    /// Equations and velocity coordinates whose slope is not zero.
     sloped: HashSet<(usize, usize)>,
 }
 
@@ -265,8 +265,14 @@ impl Sections {
     fn velocities(&mut self, e: &mut Equations<'_>) {
         let (model, structure) = (e.scene.model, Rc::clone(&e.scene.structure));
         let mut drafts = Vec::new();
+        let mechanism = Rc::clone(&e.scene.mechanism);
         for (number, speed) in model.speeds.iter().enumerate() {
-            let value = e.scalar(&speed.value);
+            // Those of a ball are what they stand for already.
+            let ball = mechanism.balls.iter().find(|ball| (ball.speed..ball.speed + 3).contains(&number));
+            let value = match ball {
+                Some(ball) => e.turned_by_hinges(ball)[number - ball.speed],
+                None => e.scalar(&speed.value),
+            };
             let value = e.put_in_stand_ins(&[value])[0];
             let left = self.name(e, e.scene.symbols.speeds[number][0]);
             drafts.push(Draft::new(Subject::Speed(number), left, value));
@@ -327,6 +333,17 @@ impl Sections {
         drafts.extend(rates);
         drafts.extend(rests.iter().filter(written).map(draft));
         let lines = self.lines(e, drafts);
+        if structure.rates.unknowns.iter().any(|&unknown| {
+            let place = e.freedom(unknown);
+            motion.named.iter().any(|named| motion.map[place].contains(&named.symbol) && has_block(&e.g, named.value))
+        }) {
+            let rates = structure.rates.unknowns.iter().map(|&c| format!("`{}`", coordinate_name(e.scene.model, c)));
+            let rates = rates.collect::<Vec<_>>().join(", ");
+            says.push(self.letters.sentence(&format!(
+                "The equations of velocities above give the rates of {rates} by elimination with pivots: `S` are the slopes of that \
+                 solution, `gamma` what is left of its derivative by time, and neither has a formula."
+            )));
+        }
         let says_of = "`S` are the slopes of what follows by the state's velocities, `gamma` what is left of its acceleration where those of \
                        the state are zero: x' = S q', x'' = S q'' + gamma.";
         if reduction.of_rates().next().is_some() {
@@ -435,7 +452,7 @@ impl Sections {
     }
 
     /// Equations that keep multipliers.
-    fn constraints(&mut self, e: &mut Equations<'_>) {
+    fn constraints(&mut self, e: &mut Equations<'_>, following: &Following) {
         let structure = Rc::clone(&e.scene.structure);
         let mut drafts = Vec::new();
         for &row in &structure.rows {
@@ -447,9 +464,9 @@ impl Sections {
         for (k, &row) in structure.rows.iter().enumerate() {
             let (rate, _) = e.row_rates(row);
             let rate = e.put_in_stand_ins(&[rate])[0];
-            for (j, &coordinate) in structure.state.iter().enumerate() {
-                let velocity = e.coordinate_symbols(coordinate)[1];
-                let slope = e.g.derivative(rate, &[(velocity, Scalar::ONE)]);
+            for (j, &coordinate) in structure.speeds().iter().enumerate() {
+                let seeds = following.along(e, j);
+                let slope = e.g.derivative(rate, &seeds);
                 if slope == Scalar::ZERO {
                     continue;
                 }

@@ -13,31 +13,72 @@ pub(super) const LAWS: &[Law] = &[
     Law { between: "the constraints and their Jacobian", judge: |at| at.jacobian() },
     Law { between: "the constraints and their rates", judge: |at| at.rates() },
     Law { between: "the rates of the constraints and their Jacobian", judge: |at| at.slopes_of_rates() },
+    Law { between: "the Jacobians of the constraints by positions and by velocities", judge: |at| at.both_jacobians() },
     Law { between: "the rates of the constraints and their bias", judge: |at| at.second_rates() },
 ];
 
 impl At<'_, '_> {
+    /// Slopes of what is left of equations of positions.
     fn jacobian(&mut self) -> Judged {
         let r = self.of_positions();
-        self.jacobian_of(FunctionKind::Constraints, &r, |at, slopes| at.displacements(slopes))
+        let speeds = self.laws.structure.has_speeds();
+        let g = if speeds { FunctionKind::PositionJacobian } else { FunctionKind::ConstraintJacobian };
+        self.jacobian_of(FunctionKind::Constraints, g, &r, |at, slopes| at.displacements(slopes))
     }
 
     /// Rates are linear in velocities, those of velocities alone too: their slopes are the Jacobian.
     fn slopes_of_rates(&mut self) -> Judged {
         let r = self.weights(self.laws.structure.rows.len());
-        self.jacobian_of(FunctionKind::ConstraintRate, &r, |at, slopes| at.by(slopes, velocity))
+        let g = FunctionKind::ConstraintJacobian;
+        self.jacobian_of(FunctionKind::ConstraintRate, g, &r, |at, slopes| at.by(slopes, velocity))
     }
 
-    /// The slopes of a sum of equations with these weights, along a random direction.
-    fn jacobian_of(&mut self, of: FunctionKind, r: &[f64], columns: impl Fn(&Self, &Slopes) -> Vec<Doubled>) -> Judged {
-        let g = FunctionKind::ConstraintJacobian;
+    /// Where velocities are no rates of positions, what they open is what the rates of positions open that they add.
+    fn both_jacobians(&mut self) -> Judged {
+        let (moved, all, own) =
+            (FunctionKind::PositionRates, FunctionKind::PositionJacobian, FunctionKind::ConstraintJacobian);
+        if ![moved, all, own].iter().all(|&kind| self.has(kind)) {
+            return Some(None);
+        }
+        let r = self.weights(self.laws.structure.rows.len());
+        let (v, rates) = (self.velocities(), self.values(moved)?);
+        let still: Vec<(Symbol, Doubled)> = self.speeds().iter().map(|&c| (velocity(c), Doubled::ZERO)).collect();
+        let at_rest = self.with(moved, &still)?.roots();
+        let added: Vec<Doubled> = rates.iter().zip(&at_rest).map(|(&rate, &rest)| rate - rest).collect();
+        let mut sum = Sum::default();
+        for (g, sign, along) in [(own, 1.0, &v), (all, -1.0, &added)] {
+            let (jacobian, width) = (self.values(g)?, along.len());
+            let mut weights = vec![0.0; jacobian.len()];
+            for (at, &x) in jacobian.iter().enumerate() {
+                sum.product(&[x, Doubled::new(sign * r[at / width]), along[at % width]]);
+                weights[at] = r[at / width] * along[at % width].high;
+            }
+            sum.bound += self.bound(g, &weights);
+            // What the rates of positions are rounded by.
+            if g == all {
+                let mut back = vec![0.0; width];
+                jacobian.iter().enumerate().for_each(|(at, x)| back[at % width] += r[at / width] * x.high);
+                sum.bound += 2.0 * self.bound(moved, &back);
+            }
+        }
+        judged(&sum, own, all)
+    }
+
+    /// The slopes of a sum of equations with these weights, along a random direction, against a Jacobian.
+    fn jacobian_of(
+        &mut self,
+        of: FunctionKind,
+        g: FunctionKind,
+        r: &[f64],
+        columns: impl Fn(&Self, &Slopes) -> Vec<Doubled>,
+    ) -> Judged {
         if r.is_empty() || !self.has(of) || !self.has(g) {
             return Some(None);
         }
-        let (n, symbols) = (self.dof(), self.symbols());
-        let s = self.weights(n);
+        let symbols = self.symbols();
         let slopes = self.trace(of)?.slopes::<Doubled>(r, symbols);
         let columns = columns(self, &slopes);
+        let (n, s) = (columns.len(), self.weights(columns.len()));
         let jacobian = self.values(g)?;
         let mut sum = Sum::default();
         let mut weights = vec![0.0; jacobian.len()];
@@ -85,7 +126,10 @@ impl At<'_, '_> {
         if rows == 0 || !self.has(of) || !self.has(rate) {
             return Some(None);
         }
-        let (v, symbols) = (self.velocities(), self.symbols());
+        if !self.is_moved() {
+            return Some(None);
+        }
+        let (v, symbols) = (self.moved()?, self.symbols());
         let slopes = self.trace(of)?.slopes::<Doubled>(r, symbols);
         let mut sum = Sum::default();
         self.values(rate)?.iter().zip(r).for_each(|(&x, &r)| sum.product(&[x, Doubled::new(r)]));
