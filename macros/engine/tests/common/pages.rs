@@ -7,7 +7,7 @@ use multibody_engine::contracts::function::FunctionKind;
 use multibody_engine::contracts::symbol::Symbol;
 use multibody_engine::mechanics::loops::constraints::is_rate;
 use multibody_engine::mechanics::loops::structure::{Role, Row, Structure};
-use multibody_engine::mechanics::written::{Page, Subject};
+use multibody_engine::mechanics::written::Page;
 use multibody_engine::mechanics::{self, analysis};
 use multibody_engine::model::types::{
     Coordinate, Docs, Expr, ExprNode, InstanceId, JointId, Model, Order, Output, Place, Request, Type,
@@ -21,6 +21,9 @@ use super::interpreter;
 
 /// Beyond this a configuration is near a dead centre, where nothing can be told.
 const MOST: f64 = 1e6;
+
+/// The same of rates that follow from velocities of about one.
+const MOST_RATE: f64 = 20.0;
 
 /// What is left of a gap.
 const CLOSED: f64 = 1e-14;
@@ -117,13 +120,8 @@ impl Written {
         let (structure, compiled) = compile(&model).ok()?;
         model.outputs.truncate(own);
         let Ok(page) = mechanics::page(&model, &structure) else { panic!("{}: no page", model.name) };
-        // Rates without a line are found with pivots.
-        let has_line = |coordinate: &Coordinate| {
-            let lines = page.sections.iter().flat_map(|section| &section.lines);
-            lines.map(|line| line.subject).any(|subject| subject == Subject::Rate(*coordinate))
-        };
-        let quaternion = |c: &&Coordinate| !model.joints[c.joint].kind.has_quaternion();
-        if !structure.rates.unknowns.iter().filter(quaternion).all(has_line) {
+        // Rates that are found with pivots have no formula.
+        if page.sections.iter().flat_map(|section| &section.says).any(|says| says.contains("neither has a formula")) {
             return None;
         }
         Some(Written { model, structure, compiled, page, following })
@@ -192,7 +190,11 @@ impl Written {
     pub(crate) fn state(&self, random: &mut Random) -> Option<HashMap<Symbol, f64>> {
         (0..40).filter_map(|_| self.closed(self.draw(random))).find(|at| {
             let sizes = [FunctionKind::MassMatrix, FunctionKind::Bias].map(|kind| self.run(kind, at));
-            sizes.iter().flatten().flatten().all(|x| x.is_finite() && x.abs() <= MOST)
+            // What follows from velocities is ill-conditioned near poses in which it doesn't.
+            let follows = if self.structure.has_speeds() { self.followed(at) } else { Vec::new() };
+            let is_rate = |symbol: &Symbol| matches!(symbol, Symbol::Velocity { .. });
+            let near = follows.iter().any(|(symbol, x)| is_rate(symbol) && (x.is_nan() || x.abs() > MOST_RATE));
+            !near && sizes.iter().flatten().flatten().all(|x| x.is_finite() && x.abs() <= MOST)
         })
     }
 

@@ -30,7 +30,7 @@ use super::values::{Part, Value};
 const DEFINED: &str = "coordinates that follow are defined before expressions are translated";
 
 /// Larger systems are solved with pivots.
-const MOST_WRITTEN: usize = 3;
+pub(in crate::mechanics) const MOST_WRITTEN: usize = 3;
 
 impl Equations<'_> {
     /// The derivative of a value.
@@ -157,21 +157,14 @@ impl Equations<'_> {
         self.g.block_outputs(BlockKind::Solve { size, symmetric: false, groups: [].into() }, &system)[index]
     }
 
-    /// The unknowns of a square system for people to read: quotients where it is small.
-    pub(in crate::mechanics) fn solve_for_readers(
+    /// One unknown as a quotient of determinants (Cramer's rule).
+    pub(in crate::mechanics) fn quotient(
         &mut self,
         size: usize,
         matrix: &[Scalar],
-        side: &[Scalar],
-    ) -> Vec<Scalar> {
-        match size <= MOST_WRITTEN {
-            true => (0..size).map(|index| self.quotient(size, matrix, side, index)).collect(),
-            false => self.eliminate_strictly(size, matrix, side),
-        }
-    }
-
-    /// One unknown as a quotient of determinants (Cramer's rule).
-    fn quotient(&mut self, size: usize, matrix: &[Scalar], sides: &[Scalar], index: usize) -> Scalar {
+        sides: &[Scalar],
+        index: usize,
+    ) -> Scalar {
         let rows: Vec<Vec<Scalar>> = matrix.chunks(size).map(<[Scalar]>::to_vec).collect();
         let mut replaced = rows.clone();
         replaced.iter_mut().zip(sides).for_each(|(row, &side)| row[index] = side);

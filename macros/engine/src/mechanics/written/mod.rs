@@ -14,6 +14,7 @@ mod following;
 mod letters;
 pub mod names;
 mod order;
+mod quotients;
 mod rows;
 mod sections;
 mod solved;
