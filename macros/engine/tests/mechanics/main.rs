@@ -9,6 +9,7 @@ mod analysis;
 mod assembly;
 mod auto;
 mod balance;
+mod balls;
 mod centroidal;
 mod changing_mass;
 mod closed_forms;
