@@ -37,7 +37,8 @@ pub enum EquilibriumError {
         /// Steps made.
         iterations: u32,
     },
-    /// Without velocities positions go on changing, where these are speeds of which rates follow with a share of their own.
+    /// Without velocities positions go on changing, at that time or soon after it, where velocities are speeds from which rates follow with
+    /// a share of their own.
     Moving {
         /// `[m/s]` or `[rad/s]` greatest rate of a position.
         rate: f64,

@@ -1,6 +1,10 @@
 //! A sleigh, a car on four wheels and a closed chain in all ways: with multipliers and reduced, in rates and in speeds, the same motion.
 
-use multibody::{Configuration, Dop853, Integrator, Projection, System, Tangent, WithProjection, multibody};
+use multibody::projection::{SeparateWeights, assemble_by};
+use multibody::{
+    Configuration, Dop853, EquilibriumError, Integrator, Projection, System, Tangent, WithProjection,
+    constrained_equilibrium, multibody,
+};
 
 use crate::speeds::{Random, agree, derivatives_are_slopes, flat, projections_agree, with_rates};
 
@@ -91,15 +95,18 @@ multibody! {
         joint c: Ball { parent: rod.at([0.0, 0.75, 0.0]), child: rocker.at([0.5, 0.05, 0.0]) }
         input pull;
         force hand: Effort { joint: rail, value: pull }
+        force back: SpringDamper { joint: rail, stiffness: 60.0, damping: 2.0 }
         output moved = [rod.acceleration, rod.angular_acceleration, rocker.angular_acceleration, base.acceleration];
         output forces = [c.reaction.force, d.reaction.moment];
         output energy = kinetic() + potential();
         formulation { constraints: Multipliers }
-        emit forward_dynamics, impulse;
+        emit forward_dynamics, derivatives, impulse;
     }
     /// The same in speeds that are moved by time too.
     pub(crate) mod chain {
         param reach = 0.7;
+        /// [rad/s]
+        param moved = 0.2;
         world { gravity: [0.3, -9.7, -1.2] }
         body base { mass: 4.0, com: [0.1, 0.0, 0.02], inertia: diag(0.1, 0.1, 0.1) }
         body crank { mass: 1.0, com: [0.15, 0.01, 0.0], inertia: inertia(0.01, 0.02, 0.02, 0.001, 0.0, -0.001) }
@@ -113,7 +120,7 @@ multibody! {
         /// [rad/s]
         speed turned_x = rod.angular_velocity.x;
         /// [rad/s]
-        speed turned_y = rod.angular_velocity.y + 0.2 * sin(t);
+        speed turned_y = rod.angular_velocity.y + moved * sin(t);
         /// [rad/s]
         speed turned_z = rod.angular_velocity.z;
         /// [rad/s]
@@ -124,6 +131,7 @@ multibody! {
         speed cranked = (1.3 + cos(a)) * a.rate;
         input pull;
         force hand: Effort { joint: rail, value: pull }
+        force back: SpringDamper { joint: rail, stiffness: 60.0, damping: 2.0 }
         output moved = [rod.acceleration, rod.angular_acceleration, rocker.angular_acceleration, base.acceleration];
         output forces = [c.reaction.force, d.reaction.moment];
         output energy = kinetic() + potential();
@@ -301,4 +309,75 @@ fn a_closed_chain() {
         assert!(chain.opening(t, &open, &given).is_open());
     }
     assert!(seen > 20, "{seen}");
+}
+
+/// What finds states, on models in speeds beside multipliers: the same as in rates, and no rest where time moves what speeds stand for.
+#[test]
+fn a_closed_chain_is_assembled_and_rests() {
+    let held = chain_held::Model::<f64>::default();
+    let chain = chain::Model::<f64>::new(&chain::Params { moved: 0.0, ..Default::default() });
+    let mut ones = |_: f64| 1.0;
+    let mut guess = chain_held::State::<f64>::default();
+    guess.q.a = 0.2;
+    let found = multibody::assemble(&held, 0.0, &guess, &chain_held::Velocity::zero().map(&mut ones)).unwrap();
+    let mut same = chain::State::<f64>::default();
+    same.q.a = 0.2;
+    let free = SeparateWeights {
+        position: chain::Rates::zero().map(&mut ones),
+        velocity: chain::Velocity::zero().map(&mut ones),
+    };
+    let again = assemble_by(&chain, 0.0, &same, &free).unwrap();
+    let [one, two] = [
+        [found.state.q.rail, found.state.q.a, found.state.q.d],
+        [again.state.q.rail, again.state.q.a, again.state.q.d],
+    ];
+    assert!(one.iter().zip(&two).all(|(a, b)| (a - b).abs() < 1e-11), "{one:?} {two:?}");
+    let free = chain_held::Velocity::zero().map(&mut ones);
+    let rest =
+        constrained_equilibrium(&held, 0.0, &found.state, &chain_held::Input { pull: 0.4 }, &free).unwrap().state;
+    let free = chain::Rates::zero().map(&mut ones);
+    let input = chain::Input { pull: 0.4 };
+    // Of several such poses the one nearby.
+    let mut near = again.state;
+    (near.q.rail, near.q.a, near.q.d, near.q.b) = (rest.q.rail + 0.01, rest.q.a - 0.02, rest.q.d + 0.01, rest.q.b);
+    let stands = constrained_equilibrium(&chain, 0.0, &near, &input, &free).unwrap().state;
+    let [one, two] = [[rest.q.rail, rest.q.a, rest.q.d], [stands.q.rail, stands.q.a, stands.q.d]];
+    assert!(one.iter().zip(&two).all(|(a, b)| (a - b).abs() < 1e-9), "{one:?} {two:?}");
+    assert!(flat(&chain.forward_dynamics(0.0, &stands, &input).v).iter().all(|a| a.abs() < 1e-9));
+    // The rod turns while its speed about y is zero, but for an instant.
+    let moving = |t: f64| constrained_equilibrium(&chain::Model::default(), t, &near, &input, &free).map(|_| ());
+    assert!(matches!(moving(0.0), Err(EquilibriumError::Moving { .. })), "{:?}", moving(0.0));
+    assert!(moving(0.3).is_err());
+}
+
+/// Four lanes, and single precision.
+#[test]
+fn a_closed_chain_in_lanes_and_in_single_precision() {
+    use multibody::Rk4;
+    use multibody::simba::simd::{SimdValue, WideF64x4};
+    let model = chain::Model::<f64>::default();
+    let mut start = chain::State::<f64>::default();
+    start.v.along = 0.3;
+    let start = Projection::default().project(&model, 0.0, &start).unwrap().state;
+    let input = chain::Input { pull: 0.7 };
+    let by = Projection::default();
+    let end = Rk4::integrate(&WithProjection::fixed(model, by), 0.0, &start, &input, 1e-3, 200, |_, _| ()).unwrap();
+    let wide = chain::Model::<WideF64x4>::default();
+    let mut lanes = chain::State::<WideF64x4>::default();
+    lanes.v.along = WideF64x4::splat(0.3);
+    let zero = WideF64x4::splat(0.0);
+    let lanes = Projection::default().project(&wide, zero, &lanes).unwrap().state;
+    let given = chain::Input { pull: WideF64x4::splat(0.7) };
+    let step = WideF64x4::splat(1e-3);
+    let found = Rk4::integrate(&WithProjection::fixed(wide, by), zero, &lanes, &given, step, 200, |_, _| ()).unwrap();
+    for lane in 0..4 {
+        assert!((found.q.a.extract(lane) - end.q.a).abs() < 1e-11, "{lane} {} {}", found.q.a.extract(lane), end.q.a);
+    }
+    let single = chain::Model::<f32>::default();
+    let mut start = chain::State::<f32>::default();
+    start.v.along = 0.3;
+    let start = Projection::default().project(&single, 0.0, &start).unwrap().state;
+    let given = chain::Input { pull: 0.7 };
+    let found = Rk4::integrate(&WithProjection::fixed(single, by), 0.0, &start, &given, 1e-3, 200, |_, _| ()).unwrap();
+    assert!((f64::from(found.q.a) - end.q.a).abs() < 1e-4, "{} {}", found.q.a, end.q.a);
 }
