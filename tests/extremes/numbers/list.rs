@@ -90,6 +90,7 @@ const REACHED: &[(&str, &str)] = &[
     ("centroidal_momentum_matrix", "of the whole: in macros/engine/tests/mechanics/centroidal.rs"),
     ("poses", "positions and rotations of bodies, as `outputs` has them: in tests/laws/output_groups.rs"),
     ("rate_derivatives", "of a model with speeds: by `DifferentiableSystem`"),
+    ("position_jacobian", "of a model with speeds and multipliers: by `Constrained`, in the tests of the runtime"),
     ("kinematics_2", "`kinematics`, asked for a second time"),
     ("value", "of a user's own function, which takes what it takes: in runtime/tests/functions"),
     ("slopes", "of a user's own function: in runtime/tests/functions"),
