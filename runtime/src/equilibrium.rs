@@ -61,8 +61,7 @@ mod search;
 
 pub use error::EquilibriumError;
 
-use crate::tangent::greatest;
-use crate::{Constrained, Differentiable, DisplacementOf, ExtraOf, Real, StateSpace, System, Tangent, VelocityOf};
+use crate::{Constrained, Differentiable, DisplacementOf, ExtraOf, Real, StateSpace, System, Tangent, VelocityOf, all};
 use closing::{Loops, Open};
 use search::{Held, Search, Turned};
 
@@ -159,12 +158,37 @@ pub fn constrained_equilibrium<S: Differentiable + Constrained>(
     standing(system, t, found)
 }
 
-/// What was found, if positions rest where velocities are zero, then and later: they do where velocities are the rates of coordinates.
+/// `[m/s]`, `[rad/s]` rates below this are those of rest, and so are rates of rates.
+const REST: f64 = 1e-8;
+
+/// What was found, if positions rest while velocities and accelerations are zero. They do where velocities are the rates of coordinates;
+/// else there may be a share of time in `q' = N(q) u + n(q, t)`, which is q' then, and whose derivative by time is q''.
 fn standing<S: System>(system: &S, t: S::Scalar, found: Equilibrium<S::State, (), S::Scalar>) -> Found<S, ()> {
-    let rate = |later: f64| greatest(&system.position_rates(t + S::Scalar::lit(later), &found.state)).greatest();
-    // What time moves may stand for an instant: at odd times after it, it doesn't.
-    let rate = [0.0, 1e-3, 0.372, 1.917].into_iter().map(rate).fold(0.0, f64::max);
-    if rate > 0.0 { Err(EquilibriumError::Moving { rate }) } else { Ok(found) }
+    let share = |t: S::Scalar| system.position_rates(t, &found.state);
+    let step = Real::sqrt(Real::sqrt(S::Scalar::epsilon())) * (S::Scalar::lit(1.0) + Real::abs(t));
+    let apart = share(t + step).add_scaled(S::Scalar::lit(-1.0), &share(t - step));
+    let change = apart.scale(S::Scalar::lit(0.5) / step);
+    let roundings = S::Scalar::lit(16.0) * S::Scalar::epsilon();
+    let rest = |rounding: S::Scalar| Real::max(S::Scalar::lit(REST), rounding);
+    let (rates, leaves) = (share(t), rest(roundings / step));
+    // The greatest, and no number if one is none.
+    let worst = |v: &DisplacementOf<S>| {
+        v.fold(S::Scalar::lit(0.0), &mut |worst, x| {
+            let size = Real::abs(x);
+            Real::select(Real::gt(size, worst) | Real::ne(size, size), size, worst)
+        })
+    };
+    let (rate, acceleration) = (worst(&rates), worst(&change));
+    if !all(Real::is_finite(rate) & Real::is_finite(acceleration)) {
+        return Err(EquilibriumError::NotFinite);
+    }
+    if !all(Real::le(rate, rest(roundings))) {
+        return Err(EquilibriumError::Moving { rate: rate.greatest() });
+    }
+    if !all(Real::le(acceleration, leaves)) {
+        return Err(EquilibriumError::Leaving { acceleration: acceleration.greatest() });
+    }
+    Ok(found)
 }
 
 /// A state without velocities.

@@ -139,8 +139,9 @@ pub trait System {
     /// these two; systems in which both share work write it anew, with the same values.
     #[inline]
     fn slope(&self, t: Self::Scalar, state: &Self::State, input: &Self::Input) -> SlopeOf<Self> {
+        let q = self.position_rates(t, state);
         let (v, x) = self.derivative(t, state, input);
-        Slope { q: self.position_rates(t, state), v, x }
+        Slope { q, v, x }
     }
 
     /// Called with the state at the end of every step before anyone sees it: renews what the state holds besides its

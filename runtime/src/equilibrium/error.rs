@@ -37,11 +37,15 @@ pub enum EquilibriumError {
         /// Steps made.
         iterations: u32,
     },
-    /// Without velocities positions go on changing, at that time or soon after it, where velocities are speeds from which rates follow with
-    /// a share of their own.
+    /// Without velocities positions go on changing, where velocities are speeds from which rates follow with a share of their own.
     Moving {
         /// `[m/s]` or `[rad/s]` greatest rate of a position.
         rate: f64,
+    },
+    /// The same, but that they stand for an instant: that share is zero, and its derivative by time is not.
+    Leaving {
+        /// `[m/s^2]` or `[rad/s^2]` greatest acceleration of a position.
+        acceleration: f64,
     },
 }
 
@@ -60,6 +64,11 @@ impl fmt::Display for EquilibriumError {
             Self::Moving { rate } => {
                 write!(f, "nothing is at rest: without velocities positions change at {rate:e} per second")
             }
+            Self::Leaving { acceleration } => write!(
+                f,
+                "positions stand for an instant alone: without velocities and their accelerations they gain {acceleration:e} per second \
+                 each second"
+            ),
             Self::Open { gap, iterations } => {
                 write!(f, "the loops do not close near the guess: {gap:e} is left after {iterations} steps")
             }

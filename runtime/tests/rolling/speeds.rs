@@ -209,6 +209,15 @@ multibody! {
         speed beside = slide.rate - 1.0;
         emit forward_dynamics, derivatives;
     }
+    /// One that shakes for a while.
+    pub mod shaken {
+        body load { mass: 1.3 }
+        joint slide: Prismatic { parent: ground, child: load, axis: X }
+        force spring: Spring { joint: slide, stiffness: 20.0 }
+        /// [m/s]
+        speed beside = slide.rate - sin(2.0 * t) * exp(-40.0 * t);
+        emit forward_dynamics, derivatives;
+    }
 }
 
 /// Random numbers between -1 and 1, the same in every run.
@@ -274,7 +283,6 @@ where
         let slope = system.slope(t, &state.join(q.displace(&d), v.add(&dv), x.add(&dx)), input);
         [flat(&slope.q), flat(&slope.v), flat(&slope.x)].concat()
     };
-    let greatest = jacobian.0.iter().flatten().fold(1.0_f64, |most, x| most.max(x.abs()));
     for column in 0..W {
         // Near a singular pose forces are large, and their rounding wants wide steps; where slopes change fast, short ones are right.
         let found = [1e-6, 1e-5, 1e-4].map(|step| {
@@ -282,12 +290,11 @@ where
             let row = |row: usize| (8.0 * (up[row] - down[row]) - (far_up[row] - far_down[row])) / (12.0 * step);
             (0..W).map(row).collect::<Vec<f64>>()
         });
-        for row in 0..W {
-            let wanted = jacobian.0[row][column];
-            let close = found.iter().any(|found| (found[row] - wanted).abs() < 1e-6 * greatest);
-            let found = found.each_ref().map(|found| found[row]);
-            assert!(close, "{row}, {column}: {found:?} {wanted}");
-        }
+        let greatest = jacobian.0.iter().fold(1.0_f64, |most, row| most.max(row[column].abs()));
+        let apart =
+            |found: &Vec<f64>| (0..W).fold(0.0_f64, |most, row| most.max((found[row] - jacobian.0[row][column]).abs()));
+        let best = found.iter().map(apart).fold(f64::INFINITY, f64::min);
+        assert!(best < 1e-6 * greatest, "{column}: {best} of {greatest}");
     }
 }
 
@@ -303,7 +310,9 @@ pub(crate) fn projections_agree<H, B>(
     H: Constrained<Scalar = f64> + Impulsive<Rates = <H as Constrained>::Residual>,
     B: Constrained<Scalar = f64> + Impulsive<Rates = <B as Constrained>::Residual>,
 {
-    let d: DisplacementOf<H> = random.vector::<DisplacementOf<H>>().scale(1e-3);
+    // In other axes the gaps of an open loop have other slopes, so Newton's steps are the same to first order alone.
+    let reach = if alike { 1e-3 } else { 1e-6 };
+    let d: DisplacementOf<H> = random.vector::<DisplacementOf<H>>().scale(reach);
     let dv: VelocityOf<H> = random.vector::<VelocityOf<H>>().scale(1e-2);
     let (q, v, x) = all.split();
     let off = all.join(q.displace(&d), v.add(&dv), x);
@@ -660,4 +669,15 @@ fn what_moves_without_velocities() {
     let free = belt::Rates { slide: 1.0 };
     let found = equilibrium(&model, 0.0, &belt::State::default(), &(), &free).map(|_| ());
     assert_eq!(found, Err(EquilibriumError::Moving { rate: 1.0 }));
+    // It stands for an instant, moves, and stands.
+    let model = shaken::Model::<f64>::default();
+    let rest =
+        |t: f64| equilibrium(&model, t, &shaken::State::default(), &(), &shaken::Rates { slide: 1.0 }).map(|_| ());
+    assert!(
+        matches!(rest(0.0), Err(EquilibriumError::Leaving { acceleration }) if (acceleration - 2.0).abs() < 1e-3),
+        "{:?}",
+        rest(0.0)
+    );
+    assert!(matches!(rest(0.02), Err(EquilibriumError::Moving { .. })), "{:?}", rest(0.02));
+    assert_eq!(rest(3.0), Ok(()));
 }

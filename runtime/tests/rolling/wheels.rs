@@ -3,6 +3,8 @@
 use multibody::nalgebra::{Rotation3, UnitQuaternion, Vector3};
 use multibody::{Dop853, Integrator, Projection, WithProjection, multibody};
 
+use crate::beside::car_held as car;
+
 multibody! {
     /// A solid ball on a slope that lies obliquely in space, and gravity as oblique.
     pub mod slope {
@@ -56,39 +58,6 @@ multibody! {
         output contact = roll.contact;
         output force = roll.force;
         output energy = kinetic() + potential();
-        emit forward_dynamics, constraints;
-    }
-    /// A car on four wheels in the plane; a linkage steers both front wheels about one centre.
-    pub mod car {
-        const TRACK = 0.8;
-        const BASE = 1.3;
-        const R = 0.3;
-        body car { mass: 20.0, com: [0.6, 0.03, 0.2], inertia: diag(2.0, 3.0, 4.0) }
-        body left { mass: 1.0, inertia: diag(0.02, 0.03, 0.02) }
-        body right { mass: 1.0, inertia: diag(0.02, 0.03, 0.02) }
-        body left_fork { mass: 0.5, inertia: diag(0.02, 0.03, 0.02) }
-        body right_fork { mass: 0.5, inertia: diag(0.02, 0.03, 0.02) }
-        body left_front { mass: 1.0, inertia: diag(0.02, 0.03, 0.02) }
-        body right_front { mass: 1.0, inertia: diag(0.02, 0.03, 0.02) }
-        joint plane: Planar { parent: ground.at(R * Z), child: car, axis: Z }
-        joint spin_left: Revolute { parent: car.at([0.0, 0.5 * TRACK, 0.0]), child: left, axis: Y }
-        joint spin_right: Revolute { parent: car.at([0.0, -0.5 * TRACK, 0.0]), child: right, axis: Y }
-        joint steer_left: Revolute { parent: car.at([BASE, 0.5 * TRACK, 0.0]), child: left_fork, axis: Z }
-        joint steer_right: Revolute { parent: car.at([BASE, -0.5 * TRACK, 0.0]), child: right_fork, axis: Z }
-        joint roll_left: Revolute { parent: left_fork, child: left_front, axis: Y }
-        joint roll_right: Revolute { parent: right_fork, child: right_front, axis: Y }
-        input push;
-        input turn;
-        force motor: Effort { joint: spin_left, value: push }
-        force wheel: Effort { joint: steer_left, value: turn }
-        // cot(right) - cot(left) = TRACK / BASE, where the left wheel is the inner one.
-        constraint steering = sin(steer_left - steer_right) * BASE - TRACK * sin(steer_left) * sin(steer_right);
-        constraint rear_left: Rolling { wheel: left, axis: Y, radius: R }
-        constraint rear_right: Rolling { wheel: right, axis: Y, radius: R }
-        constraint front_left: Rolling { wheel: left_front, axis: Y, radius: R }
-        constraint front_right: Rolling { wheel: right_front, axis: Y, radius: R }
-        output slips = [rear_left.slip, rear_right.slip, front_left.slip, front_right.slip];
-        output energy = kinetic();
         emit forward_dynamics, constraints;
     }
     /// A snakeboard: a rotor on the board, and both wheel sets steered alike against each other.

@@ -575,7 +575,12 @@ impl FunctionKind {
                 "least_displacement",
                 Arguments { rates: true, ..Arguments::POSITION },
                 |s| Shape::Vector(s.dof + 1),
-                |_| {
+                |s| {
+                    if s.speeds {
+                        return "For projections: the change `d` of the velocities with the least sum of squares for which `G * d = rates`, by the \
+                                zeros of `G`; then the rank of the equations. Where that is less than their number, \
+                                `Constrained::velocity_correction` tells more: squares of `G` are formed here.";
+                    }
                     "For projections: the displacement `d` with the least sum of squares for which `G * d = rates`, by the zeros of \
                      `G`; then the rank of the equations. Where that is less than their number, `Constrained::correction` tells \
                      more: squares of `G` are formed here."

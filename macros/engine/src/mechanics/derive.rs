@@ -231,8 +231,9 @@ fn at_functions(model: &Model, functions: &[Derived]) -> Result<Vec<FunctionKind
 
 /// What to derive, each once, in a fixed order.
 fn kinds(model: &Model, structure: &Structure) -> Vec<FunctionKind> {
-    // Whether positions that move by others than their rates are integrated.
-    let moves = structure.has_speeds() && model.emit.contains(&Request::ForwardDynamics);
+    // What integrates positions, and what projects them, asks how they move where velocities are others.
+    let moved = model.emit.contains(&Request::ForwardDynamics) || !structure.rows.is_empty();
+    let moves = structure.has_speeds() && moved;
     let wanted = |kind: FunctionKind| match (kind, kind.row().asked) {
         (FunctionKind::Kinematics(_), _) => (0..model.kinematics.len()).map(FunctionKind::Kinematics).collect(),
         (FunctionKind::OutputGroup(_), _) => (0..model.output_groups.len()).map(FunctionKind::OutputGroup).collect(),

@@ -9,7 +9,7 @@ use multibody_engine::model::types::Model;
 use proc_macro2::{TokenStream, TokenTree};
 
 /// Places of models, from the root of the project.
-pub(crate) const PLACES: [&str; 8] = [
+pub(crate) const PLACES: [&str; 9] = [
     "tests/models",
     "tests/ui/pass",
     "examples/models",
@@ -17,6 +17,7 @@ pub(crate) const PLACES: [&str; 8] = [
     "runtime/tests/integrators",
     "runtime/tests/loops",
     "runtime/tests/numbers",
+    "runtime/tests/rolling",
     "README.md",
 ];
 

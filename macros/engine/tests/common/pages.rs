@@ -100,10 +100,6 @@ impl Written {
         model.emit = vec![Request::MassMatrix, Request::Bias, Request::InverseDynamics];
         model.emit.extend(more);
         let structure = analysis::analyse(&model).ok()?;
-        if structure.has_speeds() && !structure.rows.is_empty() {
-            // It has how equations change with positions.
-            model.emit.push(Request::ForwardDynamics);
-        }
         if !structure.rows.is_empty() {
             model.emit.push(Request::Residual);
         }
@@ -120,8 +116,7 @@ impl Written {
         let (structure, compiled) = compile(&model).ok()?;
         model.outputs.truncate(own);
         let Ok(page) = mechanics::page(&model, &structure) else { panic!("{}: no page", model.name) };
-        // Rates that are found with pivots have no formula.
-        if page.sections.iter().flat_map(|section| &section.says).any(|says| says.contains("neither has a formula")) {
+        if !page.unsolved.is_empty() {
             return None;
         }
         Some(Written { model, structure, compiled, page, following })

@@ -121,10 +121,7 @@ fn mistakes() {
             format!("{ARM} speed u = a.rate + b.rate;"),
             "1 speed doesn't determine the rates that it reads: `a.rate`, `b.rate`",
         ),
-        (
-            format!("{ARM} speed u = a.rate; speed w = 2.0 * a.rate;"),
-            "the speed `w` follows from other speeds and from the constraints",
-        ),
+        (format!("{ARM} speed u = a.rate; speed w = 2.0 * a.rate;"), "the speed `w` follows from other speeds"),
         (
             format!("{SLED} {blade} speed u = sled.express(sled.velocity).y + t;"),
             "the speed `u` follows from other speeds and from the constraints",
@@ -136,6 +133,13 @@ fn mistakes() {
         (
             format!("{} {blade} speed u = sled.express(sled.velocity).x;", SLED.replace("Reduced", "Multipliers")),
             "1 speed doesn't determine the rates that it reads: `plane.x.rate`, `plane.y.rate`",
+        ),
+        (
+            format!(
+                "{} {blade} speed u = plane.x.rate; speed v = sled.express(sled.velocity).y; speed w = 2.0 * plane.x.rate;",
+                SLED.replace("Reduced", "Multipliers")
+            ),
+            "the speed `w` follows from other speeds",
         ),
         (
             format!("{ARM} speed u = a.rate + 0.2; emit forward_dynamics, momentum;"),
@@ -232,6 +236,19 @@ fn a_choice_by_counts() {
     // What is refused with speeds stays in rates.
     let (model, _, _) = built(&format!("{GIMBAL} {automatic} emit forward_dynamics, momentum;"));
     assert!(model.speeds.is_empty());
+}
+
+/// Equations that keep multipliers take no speeds out, and are counted with them.
+#[test]
+fn a_choice_beside_multipliers() {
+    let (model, structure, _) = built(&format!(
+        "{GIMBAL} constraint link: Rod {{ between: [ground.at([0.9, 0.5, 0.2]), top.at([0.3, 0.0, 0.1])], length: 0.8 }}
+         formulation {{ constraints: Multipliers, speeds: Auto }}"
+    ));
+    let [remark] = &model.remarks[..] else { panic!("{:?}", model.remarks) };
+    // Which of them is cheapest is not what this is about.
+    assert!(remark.contains("turns of bodies about their own axes: ") && !remark.contains("refused"), "{remark}");
+    assert_eq!(structure.has_speeds(), !model.speeds.is_empty());
 }
 
 /// All parts of an array have the same speeds, under names that are free.

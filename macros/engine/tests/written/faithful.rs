@@ -170,7 +170,7 @@ fn look(of: &Written, label: &str, findings: &mut Findings) -> usize {
 #[test]
 fn pages_say_what_functions_compute() {
     let most = std::env::var("WRITTEN").ok().and_then(|text| text.parse().ok()).unwrap_or(MOST_FREEDOMS);
-    let (mut models, mut looked, mut findings) = (0, 0, Findings::default());
+    let (mut models, mut looked, mut in_speeds, mut findings) = (0, 0, 0, Findings::default());
     let mut unseen = Vec::new();
     for (file, call) in corpus::calls() {
         for model in corpus::models(call) {
@@ -182,11 +182,17 @@ fn pages_say_what_functions_compute() {
             let Some(of) = Written::new(model, &[]) else { continue };
             match look(&of, &label, &mut findings) {
                 0 => unseen.push(label),
-                _ => looked += 1,
+                _ => {
+                    looked += 1;
+                    in_speeds += usize::from(of.structure.has_speeds());
+                }
             }
         }
     }
-    println!("{models} models, {looked} pages looked at, worst {:.1e}; not: {unseen:?}", findings.worst);
+    println!(
+        "{models} models, {looked} pages looked at, {in_speeds} in speeds, worst {:.1e}; not: {unseen:?}",
+        findings.worst
+    );
     assert!(findings.wrong.is_empty(), "{:#?}", findings.wrong);
-    assert!(looked > 60, "{looked} of {models}");
+    assert!(looked > 60 && in_speeds >= 6, "{looked} of {models}, {in_speeds} in speeds");
 }

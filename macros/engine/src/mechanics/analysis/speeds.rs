@@ -288,10 +288,13 @@ impl Choice<'_> {
             true => {
                 (format!("the speed `{name}` is of velocities that are given: none that is free has a say in it"), None)
             }
-            false => (
-                format!("the speed `{name}` follows from other speeds and from the constraints"),
-                Some("speeds have to be independent of each other".to_owned()),
-            ),
+            false => {
+                // Equations that keep multipliers hold nothing here.
+                let held = self.points.iter().any(|point| !self.rows_at(point, false).is_empty());
+                let and = if held { " and from the constraints" } else { "" };
+                let message = format!("the speed `{name}` follows from other speeds{and}");
+                (message, Some("speeds have to be independent of each other".to_owned()))
+            }
         };
         Complaint { at: model.speeds[first].site(), message, help }
     }
@@ -313,7 +316,7 @@ impl Choice<'_> {
             }
             false => {
                 "as many speeds are needed as there are rates, since equations that keep multipliers leave these independent; the \
-                 rate of a joint may be one"
+                 rate of a joint may be one; `constraints: Reduced` takes fewer"
             }
         };
         let at = self.model.speeds.last().map_or(self.model.site(), Sited::site);

@@ -8,7 +8,7 @@ use std::rc::Rc;
 
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::constraints::coordinate_name;
-use crate::mechanics::loops::reduction::{Definition, Map, Reduction};
+use crate::mechanics::loops::reduction::{Definition, Map};
 use crate::symbolic::fingerprint::Print;
 use crate::symbolic::graph::{Graph, Scalar, ScalarNode};
 use crate::symbolic::write::formula::Identifier;
@@ -19,6 +19,8 @@ use super::letters::Letters;
 /// How coordinates of the tree move with those of the state: slopes and rests of accelerations as symbols of their own, so that
 /// equations are written with their names.
 pub(super) struct Following {
+    /// Whose rates follow, each behind those that it reads.
+    pub(super) definitions: Vec<Definition>,
     pub(super) named: Vec<Named>,
     /// Slopes by the state's velocities, row by row of the tree's coordinates.
     pub(super) map: Vec<Vec<Scalar>>,
@@ -35,7 +37,7 @@ pub(super) struct Named {
 }
 
 impl Following {
-    pub(super) fn new(e: &mut Equations<'_>, reduction: &Reduction, letters: &Letters) -> Following {
+    pub(super) fn new(e: &mut Equations<'_>, definitions: Vec<Definition>, letters: &Letters) -> Following {
         let structure = Rc::clone(&e.scene.structure);
         let places = e.speeds();
         let mut map = vec![vec![Scalar::ZERO; places.len()]; e.scene.symbols.places()];
@@ -44,9 +46,8 @@ impl Following {
                 row[j] = Scalar::ONE;
             }
         }
-        let definitions: Vec<Definition> = reduction.of_rates().copied().collect();
         let speeds = structure.speeds();
-        let mut following = Following { named: Vec::new(), map, still: Map::new() };
+        let mut following = Following { definitions: Vec::new(), named: Vec::new(), map, still: Map::new() };
         // All symbols first: a coupling stands before what it is coupled to.
         let mut slopes = Vec::new();
         for (k, definition) in definitions.iter().enumerate() {
@@ -86,7 +87,7 @@ impl Following {
             following.named.push(Named { subject: Subject::Rest(definition.coordinate), name, symbol, value });
         }
         following.settle(e);
-        following
+        Following { definitions, ..following }
     }
 
     /// How the tree moves with one velocity coordinate.

@@ -34,6 +34,8 @@ pub struct Page {
     pub sections: Vec<Section>,
     /// Symbols of the equations, by number in the graph.
     pub symbols: Vec<(Identifier, Symbol)>,
+    /// Coordinates whose rates elimination with pivots gives: they have lines without what these read.
+    pub unsolved: Vec<Coordinate>,
 }
 
 impl Page {

@@ -11,7 +11,7 @@ use crate::invariant::fault::OrFault;
 use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::constraints::{coordinate_name, path, row_name};
-use crate::mechanics::loops::reduction::Reduction;
+use crate::mechanics::loops::reduction::{Definition, Reduction};
 use crate::mechanics::loops::structure::{Means, Role};
 use crate::mechanics::results::parts::Parts;
 use crate::mechanics::translate::forces::LoadCase;
@@ -52,18 +52,21 @@ impl Equations<'_> {
     /// All that is written.
     pub(in crate::mechanics) fn page(&mut self) -> Result<Page, Vec<Complaint>> {
         let reduction = self.reduce()?;
-        let definitions = in_reading_order(self, &reduction.definitions);
+        let follow: Vec<Definition> = reduction.of_rates().copied().collect();
+        let follow = in_reading_order(self, &follow);
         let mut reduction = (*reduction).clone();
-        reduction.definitions = definitions;
+        let places: HashSet<Coordinate> =
+            reduction.definitions.iter().map(|definition| definition.coordinate).collect();
+        reduction.definitions = follow.iter().filter(|d| places.contains(&d.coordinate)).copied().collect();
         let mut writer = Sections::new(self);
         writer.solved = solved(self.scene.model, &reduction, &writer.letters);
-        let following = Following::new(self, &reduction, &writer.letters);
+        let following = Following::new(self, follow, &writer.letters);
         writer.drives(self, &reduction);
         writer.velocities(self);
         writer.followers(self, &reduction, &following);
         writer.constraints(self, &following);
         writer.motion(self, &following);
-        writer.own(self, &reduction, &following);
+        writer.own(self, &following);
         writer.page.without_raw_names();
         writer.page.tell_apart();
         Ok(writer.page)
@@ -103,7 +106,7 @@ impl Sections {
             name.text = letters.word("lambda").to_owned();
         }
         let identifiers = symbols.iter().enumerate().map(|(k, (name, _))| (SymbolId(k), name.clone())).collect();
-        let page = Page { sections: Vec::new(), symbols };
+        let page = Page { symbols, ..Page::default() };
         Sections { page, identifiers, taken, letters, solved: Solved::new(), sloped: HashSet::new() }
     }
 
@@ -215,7 +218,7 @@ impl Sections {
     }
 
     /// Rates of the user's own states, and outputs.
-    fn own(&mut self, e: &mut Equations<'_>, reduction: &Reduction, motion: &Following) {
+    fn own(&mut self, e: &mut Equations<'_>, motion: &Following) {
         let model = e.scene.model;
         let mut drafts = Vec::new();
         for (k, state) in model.states.iter().enumerate() {
@@ -256,7 +259,7 @@ impl Sections {
             false => vec![format!("Solved for, without a formula, by elimination with pivots: {}.", solved.join(", "))],
         };
         let read: Vec<Scalar> = drafts.iter().map(|draft| draft.value).collect();
-        drafts.splice(0..0, self.accelerations(e, reduction, motion, &read));
+        drafts.splice(0..0, self.accelerations(e, motion, &read));
         let lines = self.lines(e, drafts);
         self.section("Outputs", says, lines);
     }
@@ -324,7 +327,7 @@ impl Sections {
             self.identifiers.extend(e.g.symbol_id(named.symbol).map(|id| (id, named.name.clone())));
         }
         // Each after what it reads: slopes, rates, what is left of accelerations.
-        let rates = self.rates(e, reduction, motion);
+        let rates = self.rates(e, motion);
         let (slopes, rests): (Vec<&Named>, Vec<&Named>) =
             motion.named.iter().partition(|named| matches!(named.subject, Subject::Follows(..)));
         let draft = |named: &&Named| Draft::new(named.subject, Formula::Name(named.name.clone()), named.value);
@@ -333,38 +336,52 @@ impl Sections {
         drafts.extend(rates);
         drafts.extend(rests.iter().filter(written).map(draft));
         let lines = self.lines(e, drafts);
-        if structure.rates.unknowns.iter().any(|&unknown| {
-            let place = e.freedom(unknown);
-            motion.named.iter().any(|named| motion.map[place].contains(&named.symbol) && has_block(&e.g, named.value))
-        }) {
-            let rates = structure.rates.unknowns.iter().map(|&c| format!("`{}`", coordinate_name(e.scene.model, c)));
+        let is_unsolved = |unknown: &Coordinate| {
+            let row = &motion.map[e.freedom(*unknown)];
+            motion.named.iter().any(|named| row.contains(&named.symbol) && has_block(&e.g, named.value))
+        };
+        self.page.unsolved = structure.rates.unknowns.iter().copied().filter(is_unsolved).collect();
+        if !self.page.unsolved.is_empty() {
+            let rates = self.page.unsolved.iter().map(|&c| format!("`{}`", coordinate_name(e.scene.model, c)));
             let rates = rates.collect::<Vec<_>>().join(", ");
             says.push(self.letters.sentence(&format!(
                 "The equations of velocities above give the rates of {rates} by elimination with pivots: `S` are the slopes of that \
                  solution, `gamma` what is left of its derivative by time, and neither has a formula."
             )));
         }
-        let says_of = "`S` are the slopes of what follows by the state's velocities, `gamma` what is left of its acceleration where those of \
-                       the state are zero: x' = S q', x'' = S q'' + gamma.";
-        if reduction.of_rates().next().is_some() {
+        if !motion.definitions.is_empty() {
+            // Speeds take the place of the state's rates, and may have a share of time beside them.
+            let says_of = match (structure.has_speeds(), slopes.is_empty()) {
+                (true, true) => {
+                    "`gamma` is what is left of the acceleration of what follows where those of the velocities are zero."
+                }
+                (true, false) => {
+                    "`S` are the slopes of what follows by the velocities u, `gamma` what is left of its acceleration where u' is zero: \
+                     x' = S u and what time and drives add, x'' = S u' + gamma."
+                }
+                (false, _) => {
+                    "`S` are the slopes of what follows by the state's velocities, `gamma` what is left of its acceleration where those of \
+                     the state are zero: x' = S q', x'' = S q'' + gamma."
+                }
+            };
             says.push(self.letters.sentence(says_of));
         }
         self.section("Coordinates that follow", says, lines);
     }
 
     /// Rates of what follows: by the slopes, or as they come where a drive or time moves loops too.
-    fn rates(&self, e: &mut Equations<'_>, reduction: &Reduction, motion: &Following) -> Vec<Draft> {
-        let follow = reduction.of_rates().map(|definition| definition.coordinate);
+    fn rates(&self, e: &mut Equations<'_>, motion: &Following) -> Vec<Draft> {
+        let follow = motion.definitions.iter().map(|definition| definition.coordinate);
         let own = follow.chain(e.scene.structure.speeds().iter().copied());
         let rest: Vec<(Scalar, Scalar)> = own.map(|c| (e.velocity_symbols(c)[0], Scalar::ZERO)).collect();
         let rest = e.map(&rest);
-        let rates: Vec<Scalar> = reduction.of_rates().map(|definition| definition.rate).collect();
+        let rates: Vec<Scalar> = motion.definitions.iter().map(|definition| definition.rate).collect();
         let rates = e.put_in_stand_ins(&rates);
         let drifts = e.g.substitute(&rates, &rest);
         let moved = drifts.iter().any(|&drift| drift != Scalar::ZERO);
         let state: Vec<Scalar> = e.scene.structure.speeds().iter().map(|&c| e.velocity_symbols(c)[0]).collect();
         let mut drafts = Vec::new();
-        for (definition, rate) in reduction.of_rates().zip(rates) {
+        for (definition, rate) in motion.definitions.iter().zip(rates) {
             let row = &motion.map[e.freedom(definition.coordinate)];
             let terms: Vec<Scalar> = row.iter().zip(&state).map(|(&slope, &v)| e.g.mul(slope, v)).collect();
             let value = if moved { rate } else { e.g.sum(&terms) };
@@ -377,17 +394,11 @@ impl Sections {
     }
 
     /// Accelerations of what follows, of those that values read.
-    fn accelerations(
-        &self,
-        e: &mut Equations<'_>,
-        reduction: &Reduction,
-        motion: &Following,
-        values: &[Scalar],
-    ) -> Vec<Draft> {
+    fn accelerations(&self, e: &mut Equations<'_>, motion: &Following, values: &[Scalar]) -> Vec<Draft> {
         let read: HashSet<usize> = e.g.reachable_scalars(values).into_iter().collect();
         let state: Vec<Scalar> = e.scene.structure.speeds().iter().map(|&c| e.velocity_symbols(c)[1]).collect();
         let mut drafts = Vec::new();
-        for definition in reduction.of_rates() {
+        for definition in &motion.definitions {
             let acceleration = e.coordinate_symbols(definition.coordinate)[2];
             if !read.contains(&acceleration.index()) {
                 continue;
