@@ -82,18 +82,18 @@ four_ways!([car_held, car, car_chosen, car_beside], [], {
 
 /// One mechanism that keeps its equations, in rates and in speeds.
 macro_rules! two_ways {
-    ([$held:ident, $beside:ident], { $($items:tt)* }, { $($speeds:tt)* }) => {
+    ($held:ident: [$($of_held:tt)*], $beside:ident: [$($of_beside:tt)*], { $($items:tt)* }, { $($speeds:tt)* }) => {
         multibody! {
             pub(crate) mod $held {
                 $($items)*
                 formulation { constraints: Multipliers }
-                emit forward_dynamics, derivatives, impulse;
+                emit $($of_held)*;
             }
             pub(crate) mod $beside {
                 $($items)*
                 $($speeds)*
                 formulation { constraints: Multipliers }
-                emit forward_dynamics, inverse_dynamics, mass_matrix, bias, energy, derivatives, linearize, impulse;
+                emit $($of_beside)*;
             }
         }
     };
@@ -101,7 +101,9 @@ macro_rules! two_ways {
 
 // A spatial four-bar linkage on oblique axes, whose rod ends in two balls, on a base that is pulled along a rail; in speeds that time moves
 // too.
-two_ways!([chain_held, chain], {
+two_ways!(chain_held: [forward_dynamics, derivatives, impulse], chain: [
+    forward_dynamics, inverse_dynamics, mass_matrix, bias, energy, derivatives, linearize, impulse
+], {
     param reach = 0.7;
     world { gravity: [0.3, -9.7, -1.2] }
     body base { mass: 4.0, com: [0.1, 0.0, 0.02], inertia: diag(0.1, 0.1, 0.1) }
@@ -137,7 +139,7 @@ two_ways!([chain_held, chain], {
 });
 
 // A plate on three legs with balls at both ends, in absolute coordinates: so many equations that projections go by their zeros.
-two_ways!([plate_held, plate], {
+two_ways!(plate_held: [forward_dynamics, impulse], plate: [forward_dynamics, impulse], {
     world { gravity: [0.3, -0.7, -9.2] }
     body top { mass: 3.0, com: [0.01, 0.02, 0.1], inertia: inertia(0.3, 0.4, 0.5, 0.01, 0.02, -0.03), coordinates: Absolute(Quaternion) }
     body one { mass: 0.3, com: [0.0, 0.02, 0.4], inertia: diag(0.02, 0.02, 0.005) }

@@ -162,10 +162,10 @@ pub fn page(model: &Model, structure: &Structure) -> Result<Page, Vec<Complaint>
 pub fn hopes(model: &Model, structure: &Structure, share: f64) -> Result<Vec<Vec<(Coordinate, Hope)>>, Vec<Complaint>> {
     let mut deriving = Deriving::new(model, structure);
     deriving.check()?;
-    let writings = Writings::new(model, structure);
     let mut all: Vec<Vec<(Coordinate, Hope)>> = Vec::new();
-    let ways = if freedoms(model) > MOST_COMPOSITE { &[Writing::PLAIN][..] } else { &Writing::ALL[..] };
-    for &writing in ways.iter().filter(|&&writing| writings.will_do(writing)) {
+    let ways =
+        if freedoms(model) > MOST_COMPOSITE { vec![Writing::PLAIN] } else { Writings::new(model, structure).ways() };
+    for writing in ways {
         deriving.writing = writing;
         let mut found = Vec::new();
         deriving.only("", |e| {
@@ -431,12 +431,13 @@ impl<'m> Deriving<'m> {
         let solving = [Request::ForwardDynamics, Request::Impulse];
         let solved = solving.iter().any(|request| self.model.emit.contains(request));
         let structure = Rc::clone(&self.structure);
-        let writings = Writings::new(self.model, &structure);
+        let ways = Writings::new(self.model, &structure).ways();
+        if let [only] = ways[..] {
+            self.writing = only;
+            return Ok(());
+        }
         let mut least = None;
-        for writing in Writing::ALL {
-            if !writings.will_do(writing) {
-                continue;
-            }
+        for writing in ways {
             self.writing = writing;
             let solution = Cell::new(0);
             let found = self.written(&[None], |e, reduction| {

@@ -15,6 +15,8 @@ pub struct FreeBody {
     pub body: BodyId,
     /// What has a mass, or the ground.
     base: BodyRef,
+    /// The same, or the ground where nothing turns the base.
+    turns_against: BodyRef,
     /// Without mass, behind the last hinge.
     carrier: Option<BodyRef>,
     turns: usize,
@@ -48,12 +50,14 @@ impl FreeBody {
         let by_rates = self.by_quaternion;
         match speeds {
             Speeds::TurnsOfCarrier => {
-                taken.extend(self.carrier.filter(|_| is_free).map(|carrier| turning(carrier, self.base)));
+                taken.extend(self.carrier.filter(|_| is_free).map(|carrier| turning(carrier, self.turns_against)));
             }
-            Speeds::TurnsOnGround if is_free && (!by_rates || self.base != BodyRef::Ground) => {
+            Speeds::TurnsOnGround if is_free && (!by_rates || self.turns_against != BodyRef::Ground) => {
                 taken.push(turning(own, BodyRef::Ground));
             }
-            Speeds::Turns | Speeds::TurnsAndTravels if is_free && !by_rates => taken.push(turning(own, self.base)),
+            Speeds::Turns | Speeds::TurnsAndTravels if is_free && !by_rates => {
+                taken.push(turning(own, self.turns_against))
+            }
             _ => {}
         }
         if speeds == Speeds::TurnsAndTravels && self.base == BodyRef::Ground && self.slides > 1 && self.turns > 0 {
@@ -88,10 +92,18 @@ impl Model {
                 base => break base,
             }
         };
+        let (mut still, mut turns_against) = (base, BodyRef::Ground);
+        while still != BodyRef::Ground {
+            let below = carried(still)?;
+            if below.kind.freedoms() > below.kind.slides() {
+                turns_against = base;
+            }
+            still = below.parent.body;
+        }
         let is_hinge = |joint: &Joint| joint.kind.freedoms() == 1 && joint.kind.slides() == 0;
         let carrier = Some(last.parent.body).filter(|&carrier| is_hinge(last) && carrier != base);
         let by_quaternion = last.kind.has_quaternion() && last.child.steps.is_empty();
-        (turns + slides > 1).then_some(FreeBody { body, base, carrier, turns, slides, by_quaternion })
+        (turns + slides > 1).then_some(FreeBody { body, base, turns_against, carrier, turns, slides, by_quaternion })
     }
 
     /// The same with velocities of bodies as speeds; nothing where there are none.

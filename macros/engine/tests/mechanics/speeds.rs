@@ -225,6 +225,8 @@ fn a_choice_by_counts() {
     let [remark] = &model.remarks[..] else { panic!("{:?}", model.remarks) };
     assert!(remark.starts_with("`speeds: Auto` takes turns of bodies about their own axes: "), "{remark}");
     assert!(remark.contains("; rates of coordinates: ") && remark.contains("work "), "{remark}");
+    // On what slides, turns against the ground are the same.
+    assert!(!remark.contains("turns of bodies against the ground"), "{remark}");
     // Nothing turns freely: there is nothing to choose.
     let (model, structure, _) = built(&format!("{ARM} {automatic}"));
     assert!(model.remarks.is_empty() && model.speeds.is_empty() && !structure.has_speeds());

@@ -7,7 +7,7 @@
 
 use crate::mechanics::loops::constraints::{Writing, is_component};
 use crate::mechanics::loops::structure::{Closed, Means, Role, Row, Structure};
-use crate::model::types::{Coordinate, JointId, LoopClosure, Model};
+use crate::model::types::{ConstraintKind, Coordinate, JointId, LoopClosure, Model};
 
 use super::problem::Problem;
 use super::rank;
@@ -30,7 +30,22 @@ impl<'m> Writings<'m> {
         writings
     }
 
-    pub(in super::super) fn will_do(&self, writing: Writing) -> bool {
+    /// What there is to choose from: no more than one where nothing is written in axes.
+    pub(in super::super) fn ways(&self) -> Vec<Writing> {
+        let all = if self.differ() { &Writing::ALL[..] } else { &Writing::ALL[..1] };
+        all.iter().copied().filter(|&writing| self.will_do(writing)).collect()
+    }
+
+    /// Whether any equation is written in axes: those of cut joints and rods are, and an expression is the same in all of them.
+    fn differ(&self) -> bool {
+        let in_axes = |row: &Row| match row.closing {
+            LoopClosure::Cut(_) => true,
+            LoopClosure::Constraint(id) => matches!(self.model.constraints[id].kind, ConstraintKind::Rod { .. }),
+        };
+        self.systems().iter().any(|(rows, _)| rows.iter().any(in_axes))
+    }
+
+    fn will_do(&self, writing: Writing) -> bool {
         let Some(ranks) = &self.ranks else { return true };
         // Without a closed configuration nothing is known of other axes.
         writing == Writing::PLAIN || (!self.structure.closed.is_empty() && *ranks == self.ranks_in(writing))
