@@ -333,7 +333,7 @@ pub(crate) fn projections_agree<H, B>(
         let moved = [flat(&held.constraints_along(t, &off, &d)), flat(&beside.constraints_along(t, &same, &along))];
         close("gaps along a displacement", &moved[1], &moved[0], 1e-11);
     } else {
-        let q = same.split().0;
+        let (q, along) = (same.split().0, along.scale(1e-3 / reach));
         let [up, down] = [1e-2, -1e-2].map(|by| flat(&beside.constraints(t, &q.displace(&along.scale(by)))));
         let found: Vec<f64> = up.iter().zip(&down).map(|(up, down)| (up - down) / 2e-2).collect();
         close("gaps along a displacement", &flat(&beside.constraints_along(t, &same, &along)), &found, 1e-9);

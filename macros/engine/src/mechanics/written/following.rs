@@ -87,7 +87,8 @@ impl Following {
             following.named.push(Named { subject: Subject::Rest(definition.coordinate), name, symbol, value });
         }
         following.settle(e);
-        Following { definitions, ..following }
+        following.definitions = definitions;
+        following
     }
 
     /// How the tree moves with one velocity coordinate.

@@ -34,7 +34,7 @@ pub struct Page {
     pub sections: Vec<Section>,
     /// Symbols of the equations, by number in the graph.
     pub symbols: Vec<(Identifier, Symbol)>,
-    /// Coordinates whose rates elimination with pivots gives: they have lines without what these read.
+    /// Coordinates whose rates are found by elimination with pivots, so that the page has no formula for them.
     pub unsolved: Vec<Coordinate>,
 }
 
