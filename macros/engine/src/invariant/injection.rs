@@ -111,7 +111,7 @@ pub(crate) const fn broken(_: Break) -> bool {
 }
 
 #[cfg(test)]
-pub(crate) use on::{broken, with};
+pub(crate) use on::{broken, reached_by, with};
 
 #[cfg(test)]
 mod on {
@@ -121,10 +121,21 @@ mod on {
 
     thread_local! {
         static ON: Cell<Option<Break>> = const { Cell::new(None) };
+        /// A bit for each break whose line was run.
+        static REACHED: Cell<u64> = const { Cell::new(0) };
     }
 
     pub(crate) fn broken(line: Break) -> bool {
+        REACHED.set(REACHED.get() | 1 << line as u32);
         ON.get() == Some(line)
+    }
+
+    /// Does this work without a break, and says whose lines it runs: of no other break can anything become of it.
+    pub(crate) fn reached_by<T>(work: impl FnOnce() -> T) -> (T, Vec<Break>) {
+        REACHED.set(0);
+        let result = with(None, work);
+        let reached = REACHED.get();
+        (result, Break::ALL.into_iter().filter(|line| reached >> *line as u32 & 1 == 1).collect())
     }
 
     /// Does this work with a break, or with none.
