@@ -7,6 +7,9 @@ use multibody_engine::optimize::Plain;
 use multibody_engine::optimize::program::{Expression, Program};
 use multibody_engine::{mechanics, optimize, verify};
 
+/// One model of so many is looked at, unless `VERIFY_ONLY` asks for more.
+const SHARE: usize = 3;
+
 /// Products that are fused.
 fn count(program: &Program) -> usize {
     let mut stack: Vec<&Expression> = program.expressions().collect();
@@ -30,11 +33,13 @@ fn count(program: &Program) -> usize {
 #[test]
 fn no_model_of_the_project_is_wrong() {
     let only = std::env::var("VERIFY_ONLY").unwrap_or_default();
-    let (mut fused, mut symmetric, mut complaints) = (0, 0, Vec::new());
+    let (mut number, mut fused, mut symmetric, mut complaints) = (0, 0, 0, Vec::new());
     for (file, call) in corpus::calls() {
         for model in corpus::models(call) {
             let name = format!("{file} {}", model.name);
-            if !name.contains(&only) {
+            number += 1;
+            // `VERIFY_ONLY=.` has all.
+            if !name.contains(&only) || (only.is_empty() && number % SHARE != 0) {
                 continue;
             }
             let model = Model { fused: true, ..model };
