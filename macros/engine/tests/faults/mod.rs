@@ -48,7 +48,7 @@ fn given_back(model: &Model) -> bool {
     !compiled.sound || !verify::check(model, &structure, &derivation, &compiled).wrong.is_empty()
 }
 
-/// In two halves, since one takes as long as all other unit tests together.
+/// In two halves, which run side by side: minutes each where the engine is not optimised.
 #[test]
 fn every_break_is_told() {
     breaks_are_told(0);
