@@ -54,10 +54,10 @@
 /// | function | method | operations | as derived |
 /// |---|---|---|---|
 /// | `new` |  | none |  |
-/// | `forward_dynamics` | composite rigid body, LDL^T, parallel hinges in the axes of their tip | 33 add, 65 mul, 2 div, 1 sqrt, 1 sincos | 40 add, 92 mul, 2 div, 1 sqrt, 1 sincos |
-/// | `inverse_dynamics` | recursive Newton-Euler | 30 add, 58 mul, 1 div, 1 sqrt, 1 sincos | 37 add, 84 mul, 1 div, 1 sqrt, 1 sincos |
+/// | `forward_dynamics` | composite rigid body, LDL^T | 32 add, 61 mul, 2 div, 1 sqrt, 1 sincos | 43 add, 95 mul, 2 div, 1 sqrt, 1 sincos |
+/// | `inverse_dynamics` | recursive Newton-Euler | 30 add, 56 mul, 1 div, 1 sqrt, 1 sincos | 37 add, 84 mul, 1 div, 1 sqrt, 1 sincos |
 /// | `kinematics` | closed form | 5 add, 16 mul, 1 div, 1 sqrt, 1 sincos | 6 add, 19 mul, 1 div, 1 sqrt, 1 sincos |
-/// | `outputs` | world axes | 72 add, 113 mul, 5 div, 1 sqrt, 1 sincos | 90 add, 166 mul, 5 div, 1 sqrt, 1 sincos |
+/// | `outputs` | world axes | 71 add, 111 mul, 5 div, 1 sqrt, 1 sincos | 90 add, 166 mul, 5 div, 1 sqrt, 1 sincos |
 /// | `dead_centres` | closed forms | 1 add, 2 mul, 1 sqrt, 1 sincos | 1 add, 2 mul, 1 sqrt, 1 sincos |
 /// | `margins` | closed forms, determinants | 1 add, 5 mul, 1 sqrt, 1 sincos | 1 add, 5 mul, 1 sqrt, 1 sincos |
 ///
@@ -371,9 +371,9 @@ pub(crate) mod engine {
         }
         /// Accelerations.
         ///
-        /// Method: composite rigid body, LDL^T, parallel hinges in the axes of their tip.
+        /// Method: composite rigid body, LDL^T.
         ///
-        /// Operations: 33 add, 65 mul, 2 div, 1 sqrt, 1 sincos; as derived, before optimisation: 40 add, 92 mul, 2 div, 1 sqrt, 1 sincos.
+        /// Operations: 32 add, 61 mul, 2 div, 1 sqrt, 1 sincos; as derived, before optimisation: 43 add, 95 mul, 2 div, 1 sqrt, 1 sincos.
         #[must_use]
         pub fn forward_dynamics(
             &self,
@@ -400,9 +400,11 @@ pub(crate) mod engine {
                 * cylinder_times_shaft_rate_times_sin_shaft;
             let gap_accel_with_shaft_rate = shaft_rate_times_sin_shaft
                 * gap_accel_with_root_cylinder;
+            // Force and moment through big_end.
             let cos_shaft_times_cylinder = cos_shaft * cylinder;
+            let sin_shaft_times_0_04 = T::lit(0.04) * sin_shaft;
             let side_1_with_shaft_rate = v.shaft * cos_shaft_times_cylinder
-                - T::lit(0.04) * sin_shaft * gap_accel_with_root_cylinder;
+                - gap_accel_with_root_cylinder * sin_shaft_times_0_04;
             let w2_shaft_z = v.shaft * v.shaft;
             let minus_cylinder_accel = slope_cylinder_inv
                 * (T::lit(0.0016) * gap_accel_with_root_cylinder
@@ -410,7 +412,6 @@ pub(crate) mod engine {
                     - T::lit(0.0032) * gap_accel_with_shaft_rate
                     + T::lit(0.04) * cos_shaft_times_cylinder * w2_shaft_z);
             let big_end_u = cos_shaft_times_cylinder - T::lit(0.04);
-            // Force and moment through big_end.
             let big_end_gap_accel_with_root_cylinder = gap_accel_with_root_cylinder
                 * cos_shaft_times_0_04;
             let side_1_with_cylinder = cylinder_times_shaft_rate_times_sin_shaft
@@ -420,62 +421,60 @@ pub(crate) mod engine {
                     - T::lit(0.04) * gap_accel_with_shaft_rate
                     + cos_shaft * minus_cylinder_accel)
                 - big_end_u
-                    * (v.shaft * side_1_with_cylinder + sin_shaft * minus_cylinder_accel
-                        + v.shaft * big_end_gap_accel_with_root_cylinder);
-            let minus_big_end_v_times_0_00429 = T::lit(0.004285714285714286)
-                * minus_big_end_v;
+                    * (sin_shaft * minus_cylinder_accel
+                        + v.shaft
+                            * (side_1_with_cylinder
+                                + big_end_gap_accel_with_root_cylinder));
             let minus_n_big_end_z = T::lit(0.06326530612244897)
                 * big_end_gap_accel_with_big_end_v
-                + w2_shaft_z * minus_big_end_v_times_0_00429;
+                + T::lit(0.004285714285714286) * minus_big_end_v * w2_shaft_z;
             // Results.
-            let big_end_u_times_minus_n_big_end_z = big_end_u * minus_n_big_end_z;
-            let minus_big_end_v_times_minus_n_big_end_z = minus_big_end_v
-                * minus_n_big_end_z;
-            let slope_cylinder_inv_times_minus_big_end_v = slope_cylinder_inv
-                * minus_big_end_v;
-            let pivot_1_with_root_cylinder = T::lit(0.04)
-                * slope_cylinder_inv_times_minus_big_end_v;
             let side_1_with_big_end_u = v.shaft
                 - T::lit(51.02040816326531)
                     * (big_end_u * side_1_with_shaft_rate
                         + minus_big_end_v * side_1_with_cylinder);
-            let minus_side_1 = self.load * v.shaft - minus_n_big_end_z
-                - T::lit(0.21865889212827988) * big_end_u
+            let slope_cylinder_inv_times_minus_big_end_v = slope_cylinder_inv
+                * minus_big_end_v;
+            let minus_big_end_v_times_minus_n_big_end_z = minus_big_end_v
+                * minus_n_big_end_z;
+            let big_end_u_times_minus_n_big_end_z = big_end_u * minus_n_big_end_z;
+            let side_1_with_big_end_v = T::lit(0.10714285714285714) * minus_big_end_v
+                * side_1_with_big_end_u * side_1_with_big_end_u
+                - T::lit(5.466472303206997) * big_end_u
                     * big_end_gap_accel_with_big_end_v
-                + T::lit(51.02040816326531)
-                    * (cos_shaft_times_cylinder * big_end_u_times_minus_n_big_end_z
-                        + minus_big_end_v * minus_big_end_v_times_minus_n_big_end_z)
-                - (input.gas - T::lit(0.4) * minus_cylinder_accel
-                    - T::lit(51.02040816326531)
-                        * (cos_shaft * minus_big_end_v_times_minus_n_big_end_z
-                            - sin_shaft * big_end_u_times_minus_n_big_end_z))
-                    * pivot_1_with_root_cylinder
-                + side_1_with_big_end_u * side_1_with_big_end_u
-                    * minus_big_end_v_times_0_00429;
-            let m_1_2 = T::lit(0.00124) + T::lit(0.004285714285714286) * big_end_u;
-            // Factorisation L^T D L.
-            let pivot_1_with_big_end_v = T::lit(7.142857142857143) * minus_big_end_v
-                * (minus_big_end_v + cos_shaft * pivot_1_with_root_cylinder)
-                + T::lit(7.142857142857143) * big_end_u
+                - slope_cylinder_inv_times_minus_big_end_v
+                    * (input.gas - T::lit(0.4) * minus_cylinder_accel
+                        - T::lit(51.02040816326531)
+                            * (cos_shaft * minus_big_end_v_times_minus_n_big_end_z
+                                - sin_shaft * big_end_u_times_minus_n_big_end_z));
+            let pivot_1_with_big_end_v = minus_big_end_v
+                * (minus_big_end_v
+                    + slope_cylinder_inv_times_minus_big_end_v * cos_shaft_times_0_04)
+                + big_end_u
                     * (cos_shaft_times_cylinder
-                        - sin_shaft * pivot_1_with_root_cylinder);
+                        - slope_cylinder_inv_times_minus_big_end_v
+                            * sin_shaft_times_0_04);
             let pivot_1 = T::lit(0.01172) + T::lit(0.008571428571428572) * big_end_u
                 + T::lit(0.00064) * slope_cylinder_inv_times_minus_big_end_v
                     * slope_cylinder_inv_times_minus_big_end_v
-                - T::lit(7.142857142857143)
-                    * (m_1_2 * pivot_1_with_big_end_v
-                        + pivot_1_with_big_end_v
-                            * (m_1_2
-                                - T::lit(0.008857142857142857) * pivot_1_with_big_end_v));
+                + T::lit(0.43731778425655976) * pivot_1_with_big_end_v
+                    * (T::lit(7.380952380952381) * pivot_1_with_big_end_v
+                        - T::lit(0.28933333333333333) - big_end_u);
+            let minus_shaft_accel = (self.load * v.shaft - minus_n_big_end_z
+                + T::lit(0.04) * side_1_with_big_end_v
+                + T::lit(51.02040816326531)
+                    * (cos_shaft_times_cylinder * big_end_u_times_minus_n_big_end_z
+                        + minus_big_end_v * minus_big_end_v_times_minus_n_big_end_z))
+                / pivot_1;
             Velocity {
-                shaft: -minus_side_1 / pivot_1,
+                shaft: -minus_shaft_accel,
             }
         }
         /// Efforts that the accelerations `accel` need beside all declared forces.
         ///
         /// Method: recursive Newton-Euler.
         ///
-        /// Operations: 30 add, 58 mul, 1 div, 1 sqrt, 1 sincos; as derived, before optimisation: 37 add, 84 mul, 1 div, 1 sqrt, 1 sincos.
+        /// Operations: 30 add, 56 mul, 1 div, 1 sqrt, 1 sincos; as derived, before optimisation: 37 add, 84 mul, 1 div, 1 sqrt, 1 sincos.
         #[must_use]
         pub fn inverse_dynamics(
             &self,
@@ -526,8 +525,8 @@ pub(crate) mod engine {
                 + big_end_u
                     * (sin_shaft * minus_cylinder_accel
                         - accel.shaft * cos_shaft_times_cylinder
-                        + v.shaft * shaft_effort_with_cylinder
-                        + v.shaft * u_big_end_yx_with_cylinder);
+                        + v.shaft
+                            * (shaft_effort_with_cylinder + u_big_end_yx_with_cylinder));
             let u_big_end_yx = accel.shaft
                 + T::lit(51.02040816326531) * u_big_end_yx_with_big_end_v;
             let minus_n_big_end_z = T::lit(0.004285714285714286)
@@ -541,10 +540,9 @@ pub(crate) mod engine {
             let minus_big_end_v_times_minus_n_big_end_z = minus_big_end_v
                 * minus_n_big_end_z;
             let big_end_u_times_minus_n_big_end_z = big_end_u * minus_n_big_end_z;
-            let shaft_effort_with_big_end_v = minus_big_end_v
-                * shaft_effort_with_big_end_u * shaft_effort_with_big_end_u
-                + big_end_u * u_big_end_yx
-                - T::lit(9.333333333333334) * slope_cylinder_inv * minus_big_end_v
+            let shaft_effort_with_root_cylinder = shaft_effort_with_big_end_u
+                * shaft_effort_with_big_end_u
+                - T::lit(9.333333333333334) * slope_cylinder_inv
                     * (input.gas - T::lit(0.4) * minus_cylinder_accel
                         - T::lit(51.02040816326531)
                             * (cos_shaft * minus_big_end_v_times_minus_n_big_end_z
@@ -552,7 +550,9 @@ pub(crate) mod engine {
             Velocity {
                 shaft: T::lit(0.01048) * accel.shaft + self.load * v.shaft
                     - minus_n_big_end_z
-                    + T::lit(0.004285714285714286) * shaft_effort_with_big_end_v
+                    + T::lit(0.004285714285714286)
+                        * (big_end_u * u_big_end_yx
+                            + minus_big_end_v * shaft_effort_with_root_cylinder)
                     + T::lit(51.02040816326531)
                         * (cos_shaft_times_cylinder * big_end_u_times_minus_n_big_end_z
                             + minus_big_end_v * minus_big_end_v_times_minus_n_big_end_z),
@@ -603,7 +603,7 @@ pub(crate) mod engine {
         ///
         /// Method: world axes.
         ///
-        /// Operations: 72 add, 113 mul, 5 div, 1 sqrt, 1 sincos; as derived, before optimisation: 90 add, 166 mul, 5 div, 1 sqrt, 1 sincos.
+        /// Operations: 71 add, 111 mul, 5 div, 1 sqrt, 1 sincos; as derived, before optimisation: 90 add, 166 mul, 5 div, 1 sqrt, 1 sincos.
         #[must_use]
         pub fn outputs(&self, _t: T, state: &State<T>, input: &Input<T>) -> Output<T> {
             let q = &state.q;
@@ -625,12 +625,12 @@ pub(crate) mod engine {
             let shaft_rate_times_sin_shaft = v.shaft * sin_shaft;
             let cylinder_times_shaft_rate_times_sin_shaft = cylinder
                 * shaft_rate_times_sin_shaft;
-            let w_big_end_z_with_root_cylinder = slope_cylinder_inv
+            let u_big_end_yx_with_root_cylinder = slope_cylinder_inv
                 * cylinder_times_shaft_rate_times_sin_shaft;
-            let cylinder_gap_accel_with_root_cylinder = w_big_end_z_with_root_cylinder
-                * w_big_end_z_with_root_cylinder;
+            let cylinder_gap_accel_with_root_cylinder = u_big_end_yx_with_root_cylinder
+                * u_big_end_yx_with_root_cylinder;
             let u_big_end_yx_with_shaft_rate = shaft_rate_times_sin_shaft
-                * w_big_end_z_with_root_cylinder;
+                * u_big_end_yx_with_root_cylinder;
             let cylinder_gap_accel_with_cylinder = T::lit(0.0016)
                 * cylinder_gap_accel_with_root_cylinder
                 - T::lit(0.0032) * u_big_end_yx_with_shaft_rate;
@@ -642,27 +642,26 @@ pub(crate) mod engine {
             // Force and moment through big_end.
             let sin_shaft_times_0_04 = T::lit(0.04) * sin_shaft;
             let w_big_end_z_with_shaft_rate = v.shaft * cos_shaft_times_cylinder
-                - w_big_end_z_with_root_cylinder * sin_shaft_times_0_04;
+                - u_big_end_yx_with_root_cylinder * sin_shaft_times_0_04;
             let u_big_end_yx_with_sin_shaft = T::lit(0.04) * u_big_end_yx_with_shaft_rate
                 - v.shaft * w_big_end_z_with_shaft_rate;
-            let w_big_end_z_with_cylinder = w_big_end_z_with_root_cylinder
+            let u_big_end_yx_with_cylinder = u_big_end_yx_with_root_cylinder
                 * cos_shaft_times_0_04;
-            let w_big_end_z_with_sin_shaft = cylinder_times_shaft_rate_times_sin_shaft
-                + w_big_end_z_with_cylinder;
-            let u_big_end_yx_with_root_cylinder = v.shaft * w_big_end_z_with_cylinder
-                + v.shaft * w_big_end_z_with_sin_shaft;
+            let w_big_end_z_with_cylinder = cylinder_times_shaft_rate_times_sin_shaft
+                + u_big_end_yx_with_cylinder;
+            let u_big_end_yx_with_cos_shaft = v.shaft
+                * (w_big_end_z_with_cylinder + u_big_end_yx_with_cylinder);
             let big_end_gap_accel_with_big_end_v = minus_big_end_v
                 * (cos_shaft * minus_cylinder_accel - u_big_end_yx_with_sin_shaft)
                 - big_end_u
-                    * (sin_shaft * minus_cylinder_accel
-                        + u_big_end_yx_with_root_cylinder);
+                    * (sin_shaft * minus_cylinder_accel + u_big_end_yx_with_cos_shaft);
             let minus_n_big_end_z = T::lit(0.06326530612244897)
                 * big_end_gap_accel_with_big_end_v
                 + T::lit(0.004285714285714286) * minus_big_end_v_times_w2_shaft_z;
             let w_big_end_z = v.shaft
                 - T::lit(51.02040816326531)
                     * (big_end_u * w_big_end_z_with_shaft_rate
-                        + minus_big_end_v * w_big_end_z_with_sin_shaft);
+                        + minus_big_end_v * w_big_end_z_with_cylinder);
             // Motion of shaft.
             let w2_big_end_z = w_big_end_z * w_big_end_z;
             let slope_cylinder_inv_times_minus_big_end_v = slope_cylinder_inv
@@ -679,25 +678,19 @@ pub(crate) mod engine {
                         - T::lit(51.02040816326531)
                             * (cos_shaft * minus_big_end_v_times_minus_n_big_end_z
                                 - sin_shaft * big_end_u_times_minus_n_big_end_z));
-            let big_end_u_times_0_00429 = T::lit(0.004285714285714286) * big_end_u;
-            let m_1_2 = T::lit(0.00124) + big_end_u_times_0_00429;
-            // Factorisation L^T D L.
-            let minus_big_end_v_times_7_14 = T::lit(7.142857142857143) * minus_big_end_v;
-            let big_end_u_times_7_14 = T::lit(7.142857142857143) * big_end_u;
-            let pivot_1_with_big_end_v = (minus_big_end_v
-                + slope_cylinder_inv_times_minus_big_end_v * cos_shaft_times_0_04)
-                * minus_big_end_v_times_7_14
-                + (cos_shaft_times_cylinder
-                    - slope_cylinder_inv_times_minus_big_end_v * sin_shaft_times_0_04)
-                    * big_end_u_times_7_14;
+            let pivot_1_with_big_end_v = minus_big_end_v
+                * (minus_big_end_v
+                    + slope_cylinder_inv_times_minus_big_end_v * cos_shaft_times_0_04)
+                + big_end_u
+                    * (cos_shaft_times_cylinder
+                        - slope_cylinder_inv_times_minus_big_end_v
+                            * sin_shaft_times_0_04);
             let pivot_1 = T::lit(0.01172) + T::lit(0.008571428571428572) * big_end_u
                 + T::lit(0.00064) * slope_cylinder_inv_times_minus_big_end_v
                     * slope_cylinder_inv_times_minus_big_end_v
-                - T::lit(7.142857142857143)
-                    * (m_1_2 * pivot_1_with_big_end_v
-                        + pivot_1_with_big_end_v
-                            * (m_1_2
-                                - T::lit(0.008857142857142857) * pivot_1_with_big_end_v));
+                + T::lit(0.43731778425655976) * pivot_1_with_big_end_v
+                    * (T::lit(7.380952380952381) * pivot_1_with_big_end_v
+                        - T::lit(0.28933333333333333) - big_end_u);
             let minus_dw_shaft_z = (self.load * v.shaft - minus_n_big_end_z
                 + T::lit(0.04) * side_1_with_big_end_v
                 + T::lit(51.02040816326531)
@@ -720,11 +713,13 @@ pub(crate) mod engine {
                 + big_end_u
                     * (sin_shaft * minus_cylinder_accel_with_root_cylinder
                         + cos_shaft_times_cylinder * minus_dw_shaft_z
-                        + u_big_end_yx_with_root_cylinder);
+                        + u_big_end_yx_with_cos_shaft);
             let minus_u_big_end_yx = minus_dw_shaft_z
                 - T::lit(51.02040816326531) * u_big_end_yx_with_big_end_v;
             let minus_multiplier_1 = input.gas
                 - T::lit(0.4) * minus_cylinder_accel_with_root_cylinder;
+            let minus_big_end_v_times_7_14 = T::lit(7.142857142857143) * minus_big_end_v;
+            let big_end_u_times_7_14 = T::lit(7.142857142857143) * big_end_u;
             let f_big_end_with_sin_shaft = sin_shaft * big_end_u_times_7_14
                 - cos_shaft * minus_big_end_v_times_7_14;
             let ([multiplier_2], _) = ::multibody::linear::solve(
@@ -760,7 +755,7 @@ pub(crate) mod engine {
                 ]),
                 energy: T::lit(0.00032) * cylinder_gap_accel_with_root_cylinder
                     + T::lit(0.00524) * w2_shaft_z + T::lit(0.00062) * w2_big_end_z
-                    + v.shaft * w_big_end_z * big_end_u_times_0_00429,
+                    + T::lit(0.004285714285714286) * v.shaft * big_end_u * w_big_end_z,
             }
         }
         /// Distances from dead centres, in the order of `DEAD_CENTRES`. Of a loop's solution: its square root, a product of lengths, zero where two solutions meet and NaN where the loop cannot be closed. Of roll, pitch and yaw: the cosine of the pitch, zero where roll and yaw turn about one axis. Rates grow without bound there.
@@ -1144,8 +1139,8 @@ pub(crate) mod engine {
         },
         ::multibody::Cost {
             function: "forward_dynamics",
-            add: 33,
-            mul: 65,
+            add: 32,
+            mul: 61,
             div: 2,
             sqrt: 1,
             sincos: 1,
@@ -1154,7 +1149,7 @@ pub(crate) mod engine {
         ::multibody::Cost {
             function: "inverse_dynamics",
             add: 30,
-            mul: 58,
+            mul: 56,
             div: 1,
             sqrt: 1,
             sincos: 1,
@@ -1171,8 +1166,8 @@ pub(crate) mod engine {
         },
         ::multibody::Cost {
             function: "outputs",
-            add: 72,
-            mul: 113,
+            add: 71,
+            mul: 111,
             div: 5,
             sqrt: 1,
             sincos: 1,
@@ -1201,8 +1196,8 @@ pub(crate) mod engine {
     pub const DERIVED: &[::multibody::Cost] = &[
         ::multibody::Cost {
             function: "forward_dynamics",
-            add: 40,
-            mul: 92,
+            add: 43,
+            mul: 95,
             div: 2,
             sqrt: 1,
             sincos: 1,

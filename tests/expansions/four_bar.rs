@@ -51,13 +51,13 @@
 /// | function | method | operations | as derived |
 /// |---|---|---|---|
 /// | `new` |  | none |  |
-/// | `forward_dynamics` | composite rigid body, LDL^T, parallel hinges in the axes of their base | 78 add, 139 mul, 4 div, 2 sqrt, 1 sincos | 89 add, 182 mul, 4 div, 2 sqrt, 1 sincos |
-/// | `inverse_dynamics` | recursive Newton-Euler, parallel hinges in the axes of their base | 75 add, 124 mul, 3 div, 2 sqrt, 1 sincos | 82 add, 160 mul, 3 div, 2 sqrt, 1 sincos |
-/// | `mass_matrix` | composite rigid body | 25 add, 42 mul, 2 div, 1 sqrt, 1 sincos | 30 add, 51 mul, 2 div, 1 sqrt, 1 sincos |
-/// | `bias` | recursive Newton-Euler, parallel hinges in the axes of their base | 65 add, 115 mul, 3 div, 2 sqrt, 1 sincos | 73 add, 152 mul, 3 div, 2 sqrt, 1 sincos |
-/// | `outputs` | world axes | 183 add, 222 mul, 10 div, 2 sqrt, 1 sincos, 2 other | 209 add, 282 mul, 10 div, 2 sqrt, 1 sincos, 2 other |
+/// | `forward_dynamics` | composite rigid body, LDL^T, parallel hinges in the axes of their base | 77 add, 132 mul, 4 div, 2 sqrt, 1 sincos | 89 add, 182 mul, 4 div, 2 sqrt, 1 sincos |
+/// | `inverse_dynamics` | recursive Newton-Euler, parallel hinges in the axes of their base | 75 add, 120 mul, 3 div, 2 sqrt, 1 sincos | 82 add, 160 mul, 3 div, 2 sqrt, 1 sincos |
+/// | `mass_matrix` | composite rigid body, parallel hinges in the axes of their tip | 24 add, 36 mul, 2 div, 1 sqrt, 1 sincos | 28 add, 48 mul, 2 div, 1 sqrt, 1 sincos |
+/// | `bias` | recursive Newton-Euler, parallel hinges in the axes of their base | 65 add, 111 mul, 3 div, 2 sqrt, 1 sincos | 73 add, 152 mul, 3 div, 2 sqrt, 1 sincos |
+/// | `outputs` | world axes | 182 add, 216 mul, 10 div, 2 sqrt, 1 sincos, 2 other | 209 add, 282 mul, 10 div, 2 sqrt, 1 sincos, 2 other |
 /// | `dead_centres` | closed forms | 4 add, 4 mul, 1 sqrt, 1 sincos | 4 add, 4 mul, 1 sqrt, 1 sincos |
-/// | `margins` | closed forms, determinants | 6 add, 9 mul, 1 sqrt, 1 sincos | 6 add, 11 mul, 1 sqrt, 1 sincos |
+/// | `margins` | closed forms, determinants | 6 add, 8 mul, 1 sqrt, 1 sincos | 6 add, 11 mul, 1 sqrt, 1 sincos |
 pub mod four_bar {
     use ::core::prelude::v1::*;
     use ::multibody::Real;
@@ -355,7 +355,7 @@ pub mod four_bar {
         ///
         /// Method: composite rigid body, LDL^T, parallel hinges in the axes of their base.
         ///
-        /// Operations: 78 add, 139 mul, 4 div, 2 sqrt, 1 sincos; as derived, before optimisation: 89 add, 182 mul, 4 div, 2 sqrt, 1 sincos.
+        /// Operations: 77 add, 132 mul, 4 div, 2 sqrt, 1 sincos; as derived, before optimisation: 89 add, 182 mul, 4 div, 2 sqrt, 1 sincos.
         #[must_use]
         pub fn forward_dynamics(
             &self,
@@ -390,21 +390,22 @@ pub mod four_bar {
             // Force and moment through coupler.
             let f_coupler_passed_with_cos_crank = cos_crank * coupler_u
                 + sin_crank * minus_coupler_v;
-            let f_coupler_with_sin_crank = sin_crank * coupler_u
+            let f_coupler_passed_with_sin_crank = sin_crank * coupler_u
                 - cos_crank * minus_coupler_v;
-            let f_coupler_x_with_cos_crank = cos_crank
-                - T::lit(0.5714285714285714) * f_coupler_with_sin_crank;
+            let side_1_with_cos_crank = cos_crank
+                - T::lit(0.5714285714285714) * f_coupler_passed_with_sin_crank;
             let side_1_with_sin_crank = sin_crank
                 + T::lit(0.5714285714285714) * f_coupler_passed_with_cos_crank;
-            let side_1_with_cos_crank = Real::sqrt(
-                f_coupler_x_with_cos_crank * f_coupler_x_with_cos_crank
+            let side_1_with_coupler_u = Real::sqrt(
+                side_1_with_cos_crank * side_1_with_cos_crank
                     + side_1_with_sin_crank * side_1_with_sin_crank,
             );
-            let side_1_with_coupler_u = (side_1_with_cos_crank - T::lit(0.5))
-                / side_1_with_cos_crank;
-            let f_coupler_x_with_sin_crank = f_coupler_x_with_cos_crank
-                * side_1_with_coupler_u;
-            let side_1_with_coupler_v = side_1_with_sin_crank * side_1_with_coupler_u;
+            let side_1_with_coupler_v = (side_1_with_coupler_u - T::lit(0.5))
+                / side_1_with_coupler_u;
+            let side_1_with_cos_crank_and_sin_crank = side_1_with_cos_crank
+                * side_1_with_coupler_v;
+            let side_1_with_sin_crank_and_cos_crank = side_1_with_sin_crank
+                * side_1_with_coupler_v;
             // Velocities of what follows.
             let minus_slope_rocker_inv = T::lit(1.0) / root_rocker;
             let crank_rate_times_sin_crank = v.crank * sin_crank;
@@ -415,18 +416,11 @@ pub mod four_bar {
                         - sin_crank * crank_rate_times_cos_crank)
                     + sin_rocker * crank_rate_times_cos_crank
                     - cos_rocker * crank_rate_times_sin_crank);
-            // Force and moment through coupler.
-            let sin_rocker_times_minus_rocker_rate = sin_rocker * minus_rocker_rate;
-            let cos_rocker_times_minus_rocker_rate = cos_rocker * minus_rocker_rate;
-            let cos_crank_times_3 = T::lit(3.0) * cos_crank;
-            let w2_coupler_z_with_sin_rocker = sin_rocker_times_minus_rocker_rate
-                * sin_crank_times_3
-                + cos_rocker_times_minus_rocker_rate * cos_crank_times_3;
-            let w2_coupler_z_with_crank_rate = v.crank * pivot_1_with_cos_crank
-                + w2_coupler_z_with_sin_rocker;
             // Accelerations of what follows.
+            let cos_rocker_times_minus_rocker_rate = cos_rocker * minus_rocker_rate;
             let gap_accel_with_rocker_rate = minus_rocker_rate
                 * cos_rocker_times_minus_rocker_rate;
+            let sin_rocker_times_minus_rocker_rate = sin_rocker * minus_rocker_rate;
             let gap_accel_with_sin_rocker = minus_rocker_rate
                 * sin_rocker_times_minus_rocker_rate;
             let a_coupler_y_with_crank_rate = v.crank * crank_rate_times_sin_crank;
@@ -447,43 +441,47 @@ pub mod four_bar {
                 * gap_accel_with_rocker_rate + T::lit(3.0) * sin_rocker * rocker_accel;
             let coupler_gap_accel_with_rocker_accel = T::lit(3.0)
                 * gap_accel_with_sin_rocker - rocker_accel * cos_rocker_times_3;
-            let w2_coupler_z_with_rocker_rate = sin_rocker_times_minus_rocker_rate
+            let cos_crank_times_3 = T::lit(3.0) * cos_crank;
+            let coupler_gap_accel_with_rocker_rate = sin_rocker_times_minus_rocker_rate
+                * sin_crank_times_3
+                + cos_rocker_times_minus_rocker_rate * cos_crank_times_3;
+            let w2_coupler_z_with_crank_rate = v.crank * pivot_1_with_cos_crank
+                + coupler_gap_accel_with_rocker_rate;
+            let coupler_gap_accel_with_cos_crank = sin_rocker_times_minus_rocker_rate
                 * cos_crank_times_3
                 - cos_rocker_times_minus_rocker_rate * sin_crank_times_3;
             let w2_coupler_z_with_coupler_v = v.crank * minus_coupler_v
-                - w2_coupler_z_with_rocker_rate;
+                - coupler_gap_accel_with_cos_crank;
             let coupler_gap_accel_with_coupler_v = minus_coupler_v
-                * (v.crank * w2_coupler_z_with_sin_rocker
-                    + v.crank * w2_coupler_z_with_crank_rate
-                    + cos_crank * coupler_gap_accel_with_sin_rocker
-                    + sin_crank * coupler_gap_accel_with_rocker_accel)
+                * (cos_crank * coupler_gap_accel_with_sin_rocker
+                    + sin_crank * coupler_gap_accel_with_rocker_accel
+                    + v.crank
+                        * (coupler_gap_accel_with_rocker_rate
+                            + w2_coupler_z_with_crank_rate))
                 - coupler_u
-                    * (v.crank * w2_coupler_z_with_coupler_v
-                        - v.crank * w2_coupler_z_with_rocker_rate
-                        + sin_crank * coupler_gap_accel_with_sin_rocker
-                        - cos_crank * coupler_gap_accel_with_rocker_accel);
+                    * (sin_crank * coupler_gap_accel_with_sin_rocker
+                        - cos_crank * coupler_gap_accel_with_rocker_accel
+                        + v.crank
+                            * (w2_coupler_z_with_coupler_v
+                                - coupler_gap_accel_with_cos_crank));
             let f_coupler_passed_y = T::lit(1.7) * f_coupler_passed_with_cos_crank
-                - T::lit(0.2) * f_coupler_with_sin_crank;
+                - T::lit(0.2) * f_coupler_passed_with_sin_crank;
             let minus_a_coupler_y = a_coupler_y_with_crank_rate - T::lit(9.81);
             let minus_f_coupler_passed_x = T::lit(0.2) * f_coupler_passed_with_cos_crank
-                + T::lit(1.7) * f_coupler_with_sin_crank;
+                + T::lit(1.7) * f_coupler_passed_with_sin_crank;
             let minus_n_coupler_z = T::lit(4.571428571428571)
-                * (f_coupler_passed_with_cos_crank * f_coupler_x_with_sin_crank
-                    + f_coupler_with_sin_crank * side_1_with_coupler_v)
+                * (f_coupler_passed_with_cos_crank * side_1_with_cos_crank_and_sin_crank
+                    + f_coupler_passed_with_sin_crank
+                        * side_1_with_sin_crank_and_cos_crank)
                 + T::lit(1.090204081632653) * coupler_gap_accel_with_coupler_v
                 + f_coupler_passed_y * minus_a_coupler_y
                 - minus_a_coupler_x * minus_f_coupler_passed_x;
+            // Results.
             let w2_coupler_z_with_coupler_u = v.crank
                 - T::lit(0.08163265306122448)
                     * (coupler_u * w2_coupler_z_with_crank_rate
                         + minus_coupler_v * w2_coupler_z_with_coupler_v);
             let w2_coupler_z = w2_coupler_z_with_coupler_u * w2_coupler_z_with_coupler_u;
-            let side_1_with_crank_rate = T::lit(0.08163265306122448)
-                * coupler_gap_accel_with_coupler_v;
-            let f_coupler_x = T::lit(8.0) * f_coupler_x_with_sin_crank
-                - f_coupler_passed_y * w2_coupler_z
-                + minus_f_coupler_passed_x * side_1_with_crank_rate;
-            // Results.
             let minus_coupler_v_times_minus_n_coupler_z = minus_coupler_v
                 * minus_n_coupler_z;
             let coupler_u_times_minus_n_coupler_z = coupler_u * minus_n_coupler_z;
@@ -498,37 +496,34 @@ pub mod four_bar {
                                 + cos_crank * coupler_u_times_minus_n_coupler_z));
             let side_1_with_root_rocker = minus_slope_rocker_inv
                 * side_1_with_rocker_accel;
-            let side_1_with_root_rocker_times_0_333 = T::lit(0.3333333333333333)
-                * side_1_with_root_rocker;
+            let side_1_with_crank_rate = T::lit(0.08163265306122448)
+                * coupler_gap_accel_with_coupler_v;
             let side_1_with_f_coupler_passed_x = minus_f_coupler_passed_x * w2_coupler_z
-                - T::lit(39.24) - T::lit(8.0) * side_1_with_coupler_v
-                + sin_rocker * side_1_with_root_rocker
-                + f_coupler_passed_y * side_1_with_crank_rate
-                - sin_crank * side_1_with_root_rocker_times_0_333;
-            let side_1 = input.torque + minus_n_coupler_z + sin_crank * f_coupler_x
-                + sin_crank
-                    * (minus_rocker_a * side_1_with_root_rocker_times_0_333
-                        - cos_rocker * side_1_with_root_rocker)
-                + cos_crank * side_1_with_f_coupler_passed_x
-                - T::lit(0.08163265306122448)
-                    * (pivot_1_with_cos_crank * coupler_u_times_minus_n_coupler_z
-                        + minus_coupler_v * minus_coupler_v_times_minus_n_coupler_z);
+                - T::lit(39.24) - T::lit(8.0) * side_1_with_sin_crank_and_cos_crank
+                + side_1_with_root_rocker
+                    * (sin_rocker - T::lit(0.3333333333333333) * sin_crank)
+                + f_coupler_passed_y * side_1_with_crank_rate;
+            let side_1_with_f_coupler_passed_y = sin_crank
+                * (T::lit(8.0) * side_1_with_cos_crank_and_sin_crank
+                    - f_coupler_passed_y * w2_coupler_z
+                    + side_1_with_root_rocker
+                        * (T::lit(0.3333333333333333) * minus_rocker_a - cos_rocker)
+                    + minus_f_coupler_passed_x * side_1_with_crank_rate);
+            // Factorisation L^T D L.
             let pivot_1_with_f_coupler_passed_y = cos_crank * f_coupler_passed_y
                 + sin_crank * minus_f_coupler_passed_x;
             let pivot_1_with_root_rocker = minus_slope_rocker_inv
                 * (sin_crank * pivot_1_with_cos_rocker - cos_crank_times_sin_rocker);
-            let m_1_2 = T::lit(13.355) + pivot_1_with_f_coupler_passed_y;
-            // Factorisation L^T D L.
             let sin_rocker_times_pivot_1_with_root_rocker = sin_rocker
                 * pivot_1_with_root_rocker;
             let cos_rocker_times_pivot_1_with_root_rocker = cos_rocker
                 * pivot_1_with_root_rocker;
-            let pivot_1_with_coupler_v = T::lit(0.2857142857142857) * minus_coupler_v
+            let pivot_1_with_coupler_v = minus_coupler_v
                 * (minus_coupler_v
                     + T::lit(3.0)
                         * (cos_crank * sin_rocker_times_pivot_1_with_root_rocker
                             - sin_crank * cos_rocker_times_pivot_1_with_root_rocker))
-                + T::lit(0.2857142857142857) * coupler_u
+                + coupler_u
                     * (pivot_1_with_cos_crank
                         - T::lit(3.0)
                             * (sin_crank * sin_rocker_times_pivot_1_with_root_rocker
@@ -536,20 +531,24 @@ pub mod four_bar {
             let pivot_1 = T::lit(17.188333333333333)
                 + T::lit(2.0) * pivot_1_with_f_coupler_passed_y
                 + T::lit(9.0) * pivot_1_with_root_rocker * pivot_1_with_root_rocker
-                - T::lit(0.2857142857142857)
-                    * (m_1_2 * pivot_1_with_coupler_v
-                        + pivot_1_with_coupler_v
-                            * (m_1_2
-                                - T::lit(3.815714285714286) * pivot_1_with_coupler_v));
+                + T::lit(0.16326530612244897) * pivot_1_with_coupler_v
+                    * (T::lit(0.5451020408163265) * pivot_1_with_coupler_v
+                        - T::lit(13.355) - pivot_1_with_f_coupler_passed_y);
             Velocity {
-                crank: side_1 / pivot_1,
+                crank: (input.torque + minus_n_coupler_z
+                    + cos_crank * side_1_with_f_coupler_passed_x
+                    + side_1_with_f_coupler_passed_y
+                    - T::lit(0.08163265306122448)
+                        * (pivot_1_with_cos_crank * coupler_u_times_minus_n_coupler_z
+                            + minus_coupler_v * minus_coupler_v_times_minus_n_coupler_z))
+                    / pivot_1,
             }
         }
         /// Efforts that the accelerations `accel` need beside all declared forces.
         ///
         /// Method: recursive Newton-Euler, parallel hinges in the axes of their base.
         ///
-        /// Operations: 75 add, 124 mul, 3 div, 2 sqrt, 1 sincos; as derived, before optimisation: 82 add, 160 mul, 3 div, 2 sqrt, 1 sincos.
+        /// Operations: 75 add, 120 mul, 3 div, 2 sqrt, 1 sincos; as derived, before optimisation: 82 add, 160 mul, 3 div, 2 sqrt, 1 sincos.
         #[must_use]
         pub fn inverse_dynamics(
             &self,
@@ -587,19 +586,20 @@ pub mod four_bar {
                 + sin_crank * minus_coupler_v;
             let crank_effort_with_sin_crank = sin_crank * coupler_u
                 - cos_crank * minus_coupler_v;
-            let f_coupler_x_with_cos_crank = cos_crank
+            let crank_effort_with_coupler_v = cos_crank
                 - T::lit(0.5714285714285714) * crank_effort_with_sin_crank;
-            let crank_effort_with_coupler_v = sin_crank
+            let crank_effort_with_sin_crank_and_cos_crank = sin_crank
                 + T::lit(0.5714285714285714) * crank_effort_with_coupler_u;
             let crank_effort_with_cos_crank_and_sin_crank = Real::sqrt(
-                f_coupler_x_with_cos_crank * f_coupler_x_with_cos_crank
-                    + crank_effort_with_coupler_v * crank_effort_with_coupler_v,
+                crank_effort_with_coupler_v * crank_effort_with_coupler_v
+                    + crank_effort_with_sin_crank_and_cos_crank
+                        * crank_effort_with_sin_crank_and_cos_crank,
             );
             let crank_effort_with_cos_crank_and_coupler_u = (crank_effort_with_cos_crank_and_sin_crank
                 - T::lit(0.5)) / crank_effort_with_cos_crank_and_sin_crank;
-            let f_coupler_x_with_sin_crank = f_coupler_x_with_cos_crank
+            let crank_effort_with_cos_crank_and_coupler_v = crank_effort_with_coupler_v
                 * crank_effort_with_cos_crank_and_coupler_u;
-            let crank_effort_with_sin_crank_and_cos_crank = crank_effort_with_coupler_v
+            let crank_effort_with_sin_crank_and_coupler_u = crank_effort_with_sin_crank_and_cos_crank
                 * crank_effort_with_cos_crank_and_coupler_u;
             // Velocities of what follows.
             let minus_slope_rocker_inv = T::lit(1.0) / root_rocker;
@@ -611,12 +611,7 @@ pub mod four_bar {
                         - sin_crank * crank_rate_times_cos_crank)
                     + sin_rocker * crank_rate_times_cos_crank
                     - cos_rocker * crank_rate_times_sin_crank);
-            // Force and moment through coupler.
-            let sin_rocker_times_minus_rocker_rate = sin_rocker * minus_rocker_rate;
             let cos_rocker_times_minus_rocker_rate = cos_rocker * minus_rocker_rate;
-            let w2_coupler_z_with_sin_rocker = sin_rocker_times_minus_rocker_rate
-                * sin_crank_times_3
-                + cos_rocker_times_minus_rocker_rate * cos_crank_times_3;
             let u_coupler_xy_with_rocker_rate = minus_rocker_rate
                 * cos_rocker_times_minus_rocker_rate;
             let minus_a_coupler_x = accel.crank * sin_crank
@@ -624,6 +619,7 @@ pub mod four_bar {
             // Accelerations of what follows.
             let a_coupler_y_with_crank_accel = accel.crank * cos_crank
                 - v.crank * crank_rate_times_sin_crank;
+            let sin_rocker_times_minus_rocker_rate = sin_rocker * minus_rocker_rate;
             let u_coupler_xy_with_sin_rocker = minus_rocker_rate
                 * sin_rocker_times_minus_rocker_rate;
             let minus_rocker_gap_accel = T::lit(0.3333333333333333)
@@ -645,51 +641,52 @@ pub mod four_bar {
                 * minus_rocker_accel - T::lit(3.0) * u_coupler_xy_with_rocker_rate;
             let u_coupler_xy_with_cos_rocker = T::lit(3.0) * u_coupler_xy_with_sin_rocker
                 + minus_rocker_accel * cos_rocker_times_3;
+            let u_coupler_xy_with_sin_crank = sin_rocker_times_minus_rocker_rate
+                * sin_crank_times_3
+                + cos_rocker_times_minus_rocker_rate * cos_crank_times_3;
             let w2_coupler_z_with_crank_rate = v.crank * crank_effort_with_cos_crank
-                + w2_coupler_z_with_sin_rocker;
-            let u_coupler_xy_with_coupler_v = minus_coupler_v
-                * (v.crank * w2_coupler_z_with_sin_rocker
-                    - cos_crank * u_coupler_xy_with_rocker_accel
-                    + sin_crank * u_coupler_xy_with_cos_rocker
-                    + accel.crank * minus_coupler_v
-                    + v.crank * w2_coupler_z_with_crank_rate);
-            let w2_coupler_z_with_rocker_rate = sin_rocker_times_minus_rocker_rate
+                + u_coupler_xy_with_sin_crank;
+            let u_coupler_xy_with_cos_crank = sin_rocker_times_minus_rocker_rate
                 * cos_crank_times_3
                 - cos_rocker_times_minus_rocker_rate * sin_crank_times_3;
             let w2_coupler_z_with_coupler_v = v.crank * minus_coupler_v
-                - w2_coupler_z_with_rocker_rate;
-            let u_coupler_xy_with_coupler_u = coupler_u
-                * (v.crank * w2_coupler_z_with_rocker_rate
-                    + sin_crank * u_coupler_xy_with_rocker_accel
-                    + cos_crank * u_coupler_xy_with_cos_rocker
-                    + accel.crank * crank_effort_with_cos_crank
-                    - v.crank * w2_coupler_z_with_coupler_v);
+                - u_coupler_xy_with_cos_crank;
+            let u_coupler_xy_with_coupler_v = minus_coupler_v
+                * (sin_crank * u_coupler_xy_with_cos_rocker
+                    - cos_crank * u_coupler_xy_with_rocker_accel
+                    + accel.crank * minus_coupler_v
+                    + v.crank
+                        * (u_coupler_xy_with_sin_crank + w2_coupler_z_with_crank_rate))
+                + coupler_u
+                    * (sin_crank * u_coupler_xy_with_rocker_accel
+                        + cos_crank * u_coupler_xy_with_cos_rocker
+                        + accel.crank * crank_effort_with_cos_crank
+                        + v.crank
+                            * (u_coupler_xy_with_cos_crank
+                                - w2_coupler_z_with_coupler_v));
             let minus_u_coupler_xy = accel.crank
-                - T::lit(0.08163265306122448)
-                    * (u_coupler_xy_with_coupler_v + u_coupler_xy_with_coupler_u);
+                - T::lit(0.08163265306122448) * u_coupler_xy_with_coupler_v;
             let a_coupler_y = T::lit(9.81) + a_coupler_y_with_crank_accel;
-            let crank_effort_with_cos_crank_and_coupler_v = T::lit(1.7)
+            let crank_effort_with_coupler_u_and_sin_crank = T::lit(1.7)
                 * crank_effort_with_coupler_u
                 - T::lit(0.2) * crank_effort_with_sin_crank;
-            let crank_effort_with_coupler_u_and_sin_crank = T::lit(0.2)
+            let crank_effort_with_coupler_u_and_coupler_v = T::lit(0.2)
                 * crank_effort_with_coupler_u
                 + T::lit(1.7) * crank_effort_with_sin_crank;
             let minus_n_coupler_z = T::lit(4.571428571428571)
-                * (crank_effort_with_coupler_u * f_coupler_x_with_sin_crank
+                * (crank_effort_with_coupler_u
+                    * crank_effort_with_cos_crank_and_coupler_v
                     + crank_effort_with_sin_crank
-                        * crank_effort_with_sin_crank_and_cos_crank)
+                        * crank_effort_with_sin_crank_and_coupler_u)
                 - T::lit(13.355) * minus_u_coupler_xy
-                - a_coupler_y * crank_effort_with_cos_crank_and_coupler_v
-                - minus_a_coupler_x * crank_effort_with_coupler_u_and_sin_crank;
+                - a_coupler_y * crank_effort_with_coupler_u_and_sin_crank
+                - minus_a_coupler_x * crank_effort_with_coupler_u_and_coupler_v;
+            // Results.
             let w2_coupler_z_with_coupler_u = v.crank
                 - T::lit(0.08163265306122448)
                     * (coupler_u * w2_coupler_z_with_crank_rate
                         + minus_coupler_v * w2_coupler_z_with_coupler_v);
             let w2_coupler_z = w2_coupler_z_with_coupler_u * w2_coupler_z_with_coupler_u;
-            let f_coupler_x = T::lit(8.0) * f_coupler_x_with_sin_crank
-                - crank_effort_with_cos_crank_and_coupler_v * w2_coupler_z
-                - crank_effort_with_coupler_u_and_sin_crank * minus_u_coupler_xy;
-            // Results.
             let minus_coupler_v_times_minus_n_coupler_z = minus_coupler_v
                 * minus_n_coupler_z;
             let coupler_u_times_minus_n_coupler_z = coupler_u * minus_n_coupler_z;
@@ -704,21 +701,22 @@ pub mod four_bar {
                                 + cos_crank * coupler_u_times_minus_n_coupler_z));
             let crank_effort_with_root_rocker = minus_slope_rocker_inv
                 * crank_effort_with_sin_rocker;
-            let crank_effort_with_root_rocker_times_0_333 = T::lit(0.3333333333333333)
-                * crank_effort_with_root_rocker;
-            let crank_effort_with_w2_coupler_z = crank_effort_with_coupler_u_and_sin_crank
+            let crank_effort_with_w2_coupler_z = crank_effort_with_coupler_u_and_coupler_v
                 * w2_coupler_z - T::lit(39.24)
-                - T::lit(8.0) * crank_effort_with_sin_crank_and_cos_crank
-                - crank_effort_with_cos_crank_and_coupler_v * minus_u_coupler_xy
-                + sin_rocker * crank_effort_with_root_rocker
-                - sin_crank * crank_effort_with_root_rocker_times_0_333;
+                - T::lit(8.0) * crank_effort_with_sin_crank_and_coupler_u
+                - crank_effort_with_coupler_u_and_sin_crank * minus_u_coupler_xy
+                + crank_effort_with_root_rocker
+                    * (sin_rocker - T::lit(0.3333333333333333) * sin_crank);
+            let crank_effort_with_u_coupler_xy = sin_crank
+                * (T::lit(8.0) * crank_effort_with_cos_crank_and_coupler_v
+                    - crank_effort_with_coupler_u_and_sin_crank * w2_coupler_z
+                    - crank_effort_with_coupler_u_and_coupler_v * minus_u_coupler_xy
+                    + crank_effort_with_root_rocker
+                        * (T::lit(0.3333333333333333) * minus_rocker_a - cos_rocker));
             let minus_crank_effort = input.torque
                 - T::lit(3.8333333333333335) * accel.crank + minus_n_coupler_z
-                + sin_crank * f_coupler_x
-                + sin_crank
-                    * (minus_rocker_a * crank_effort_with_root_rocker_times_0_333
-                        - cos_rocker * crank_effort_with_root_rocker)
                 + cos_crank * crank_effort_with_w2_coupler_z
+                + crank_effort_with_u_coupler_xy
                 - T::lit(0.08163265306122448)
                     * (crank_effort_with_cos_crank * coupler_u_times_minus_n_coupler_z
                         + minus_coupler_v * minus_coupler_v_times_minus_n_coupler_z);
@@ -728,9 +726,9 @@ pub mod four_bar {
         }
         /// Mass matrix `M` of `M * accel + bias = effort`.
         ///
-        /// Method: composite rigid body.
+        /// Method: composite rigid body, parallel hinges in the axes of their tip.
         ///
-        /// Operations: 25 add, 42 mul, 2 div, 1 sqrt, 1 sincos; as derived, before optimisation: 30 add, 51 mul, 2 div, 1 sqrt, 1 sincos.
+        /// Operations: 24 add, 36 mul, 2 div, 1 sqrt, 1 sincos; as derived, before optimisation: 28 add, 48 mul, 2 div, 1 sqrt, 1 sincos.
         #[must_use]
         pub fn mass_matrix(
             &self,
@@ -740,60 +738,60 @@ pub mod four_bar {
             let (sin_crank, cos_crank) = Real::sin_cos(q.crank);
             let minus_rocker_a = cos_crank - T::lit(4.0);
             let rocker_d = minus_rocker_a * minus_rocker_a + sin_crank * sin_crank;
-            let rocker_d_inv = T::lit(1.0) / rocker_d;
             let minus_rocker_c = T::lit(0.16666666666666666) * rocker_d
                 - T::lit(0.5416666666666666);
             let root_rocker = Real::sqrt(rocker_d - minus_rocker_c * minus_rocker_c);
-            let cos_rocker = rocker_d_inv
-                * (minus_rocker_a * minus_rocker_c + sin_crank * root_rocker);
-            let cos_rocker_times_3_plus_4 = T::lit(4.0) + T::lit(3.0) * cos_rocker;
+            let rocker_d_inv = T::lit(1.0) / rocker_d;
             let sin_rocker = rocker_d_inv
                 * (sin_crank * minus_rocker_c - minus_rocker_a * root_rocker);
-            // Closed form of coupler.
             let cos_crank_times_sin_rocker = cos_crank * sin_rocker;
+            let cos_rocker = rocker_d_inv
+                * (minus_rocker_a * minus_rocker_c + sin_crank * root_rocker);
+            let mass_matrix_0_with_sin_crank = (cos_crank_times_sin_rocker
+                + sin_crank
+                    * (T::lit(0.3333333333333333) * (minus_rocker_a - cos_crank)
+                        - cos_rocker)) / root_rocker;
+            let cos_rocker_times_3_plus_4 = T::lit(4.0) + T::lit(3.0) * cos_rocker;
             let minus_coupler_v = sin_crank * cos_rocker_times_3_plus_4
                 - T::lit(3.0) * cos_crank_times_sin_rocker;
-            let mass_matrix_0_with_cos_crank = cos_crank * cos_rocker_times_3_plus_4
-                + T::lit(3.0) * sin_crank * sin_rocker;
-            let coupler_u = mass_matrix_0_with_cos_crank - T::lit(1.0);
-            let f_coupler_passed_y = T::lit(0.2) * minus_coupler_v
-                + T::lit(1.7) * coupler_u;
-            let mass_matrix_0_with_sin_crank = (cos_crank_times_sin_rocker
-                + T::lit(0.3333333333333333)
-                    * (sin_crank * minus_rocker_a - cos_crank * sin_crank)
-                - sin_crank * cos_rocker) / root_rocker;
-            let m_1_2 = T::lit(13.355) + f_coupler_passed_y;
-            // Results.
             let mass_matrix_0_with_sin_rocker = sin_rocker
                 * mass_matrix_0_with_sin_crank;
             let mass_matrix_0_with_cos_rocker = cos_rocker
                 * mass_matrix_0_with_sin_crank;
-            let mass_matrix_0_with_coupler_v = T::lit(0.2857142857142857)
-                * minus_coupler_v
+            let mass_matrix_0_with_cos_crank = cos_crank * cos_rocker_times_3_plus_4
+                + T::lit(3.0) * sin_crank * sin_rocker;
+            let coupler_u = mass_matrix_0_with_cos_crank - T::lit(1.0);
+            // Results.
+            let mass_matrix_0_with_coupler_v = minus_coupler_v
                 * (minus_coupler_v
                     - T::lit(3.0)
                         * (cos_crank * mass_matrix_0_with_sin_rocker
                             - sin_crank * mass_matrix_0_with_cos_rocker))
-                + T::lit(0.2857142857142857) * coupler_u
+                + coupler_u
                     * (mass_matrix_0_with_cos_crank
                         + T::lit(3.0)
                             * (sin_crank * mass_matrix_0_with_sin_rocker
                                 + cos_crank * mass_matrix_0_with_cos_rocker));
-            let minus_mass_matrix_0 = T::lit(0.2857142857142857)
-                * (m_1_2 * mass_matrix_0_with_coupler_v
-                    + mass_matrix_0_with_coupler_v
-                        * (m_1_2
-                            - T::lit(3.815714285714286) * mass_matrix_0_with_coupler_v))
-                - T::lit(17.188333333333333) - T::lit(2.0) * f_coupler_passed_y
-                - T::lit(9.0) * mass_matrix_0_with_sin_crank
-                    * mass_matrix_0_with_sin_crank;
-            ::multibody::nalgebra::SMatrix::from([[-minus_mass_matrix_0]])
+            let minus_coupler_v_plus_coupler_u_times_8_5 = minus_coupler_v
+                + T::lit(8.5) * coupler_u;
+            ::multibody::nalgebra::SMatrix::from([
+                [
+                    (T::lit(17.188333333333333)
+                        + T::lit(9.0) * mass_matrix_0_with_sin_crank
+                            * mass_matrix_0_with_sin_crank
+                        + T::lit(0.08899625156184923) * mass_matrix_0_with_coupler_v
+                            * (mass_matrix_0_with_coupler_v - T::lit(24.5)
+                                - T::lit(0.36690378135529766)
+                                    * minus_coupler_v_plus_coupler_u_times_8_5)
+                        + T::lit(0.4) * minus_coupler_v_plus_coupler_u_times_8_5),
+                ],
+            ])
         }
         /// The efforts at zero acceleration, `bias` of `M * accel + bias = effort`; declared forces and gravity are in it.
         ///
         /// Method: recursive Newton-Euler, parallel hinges in the axes of their base.
         ///
-        /// Operations: 65 add, 115 mul, 3 div, 2 sqrt, 1 sincos; as derived, before optimisation: 73 add, 152 mul, 3 div, 2 sqrt, 1 sincos.
+        /// Operations: 65 add, 111 mul, 3 div, 2 sqrt, 1 sincos; as derived, before optimisation: 73 add, 152 mul, 3 div, 2 sqrt, 1 sincos.
         #[must_use]
         pub fn bias(
             &self,
@@ -830,19 +828,20 @@ pub mod four_bar {
                 + sin_crank * minus_coupler_v;
             let crank_effort_with_sin_crank = sin_crank * coupler_u
                 - cos_crank * minus_coupler_v;
-            let f_coupler_x_with_cos_crank = cos_crank
+            let crank_effort_with_coupler_v = cos_crank
                 - T::lit(0.5714285714285714) * crank_effort_with_sin_crank;
-            let crank_effort_with_coupler_v = sin_crank
+            let crank_effort_with_sin_crank_and_cos_crank = sin_crank
                 + T::lit(0.5714285714285714) * crank_effort_with_coupler_u;
             let crank_effort_with_cos_crank_and_sin_crank = Real::sqrt(
-                f_coupler_x_with_cos_crank * f_coupler_x_with_cos_crank
-                    + crank_effort_with_coupler_v * crank_effort_with_coupler_v,
+                crank_effort_with_coupler_v * crank_effort_with_coupler_v
+                    + crank_effort_with_sin_crank_and_cos_crank
+                        * crank_effort_with_sin_crank_and_cos_crank,
             );
             let crank_effort_with_cos_crank_and_coupler_u = (crank_effort_with_cos_crank_and_sin_crank
                 - T::lit(0.5)) / crank_effort_with_cos_crank_and_sin_crank;
-            let f_coupler_x_with_sin_crank = f_coupler_x_with_cos_crank
+            let crank_effort_with_cos_crank_and_coupler_v = crank_effort_with_coupler_v
                 * crank_effort_with_cos_crank_and_coupler_u;
-            let crank_effort_with_sin_crank_and_cos_crank = crank_effort_with_coupler_v
+            let crank_effort_with_sin_crank_and_coupler_u = crank_effort_with_sin_crank_and_cos_crank
                 * crank_effort_with_cos_crank_and_coupler_u;
             // Velocities of what follows.
             let minus_slope_rocker_inv = T::lit(1.0) / root_rocker;
@@ -854,17 +853,11 @@ pub mod four_bar {
                         - sin_crank * crank_rate_times_cos_crank)
                     + sin_rocker * crank_rate_times_cos_crank
                     - cos_rocker * crank_rate_times_sin_crank);
-            // Force and moment through coupler.
-            let sin_rocker_times_minus_rocker_rate = sin_rocker * minus_rocker_rate;
-            let cos_rocker_times_minus_rocker_rate = cos_rocker * minus_rocker_rate;
-            let w2_coupler_z_with_sin_rocker = sin_rocker_times_minus_rocker_rate
-                * sin_crank_times_3
-                + cos_rocker_times_minus_rocker_rate * cos_crank_times_3;
-            let w2_coupler_z_with_crank_rate = v.crank * crank_effort_with_cos_crank
-                + w2_coupler_z_with_sin_rocker;
             // Accelerations of what follows.
+            let cos_rocker_times_minus_rocker_rate = cos_rocker * minus_rocker_rate;
             let gap_accel_with_rocker_rate = minus_rocker_rate
                 * cos_rocker_times_minus_rocker_rate;
+            let sin_rocker_times_minus_rocker_rate = sin_rocker * minus_rocker_rate;
             let gap_accel_with_sin_rocker = minus_rocker_rate
                 * sin_rocker_times_minus_rocker_rate;
             let a_coupler_y_with_crank_rate = v.crank * crank_rate_times_sin_crank;
@@ -884,46 +877,49 @@ pub mod four_bar {
                 * gap_accel_with_rocker_rate + T::lit(3.0) * sin_rocker * rocker_accel;
             let coupler_gap_accel_with_rocker_accel = T::lit(3.0)
                 * gap_accel_with_sin_rocker - rocker_accel * cos_rocker_times_3;
-            let w2_coupler_z_with_rocker_rate = sin_rocker_times_minus_rocker_rate
+            let coupler_gap_accel_with_rocker_rate = sin_rocker_times_minus_rocker_rate
+                * sin_crank_times_3
+                + cos_rocker_times_minus_rocker_rate * cos_crank_times_3;
+            let w2_coupler_z_with_crank_rate = v.crank * crank_effort_with_cos_crank
+                + coupler_gap_accel_with_rocker_rate;
+            let coupler_gap_accel_with_cos_crank = sin_rocker_times_minus_rocker_rate
                 * cos_crank_times_3
                 - cos_rocker_times_minus_rocker_rate * sin_crank_times_3;
             let w2_coupler_z_with_coupler_v = v.crank * minus_coupler_v
-                - w2_coupler_z_with_rocker_rate;
+                - coupler_gap_accel_with_cos_crank;
             let coupler_gap_accel_with_coupler_v = minus_coupler_v
-                * (v.crank * w2_coupler_z_with_sin_rocker
-                    + v.crank * w2_coupler_z_with_crank_rate
-                    + cos_crank * coupler_gap_accel_with_sin_rocker
-                    + sin_crank * coupler_gap_accel_with_rocker_accel)
+                * (cos_crank * coupler_gap_accel_with_sin_rocker
+                    + sin_crank * coupler_gap_accel_with_rocker_accel
+                    + v.crank
+                        * (coupler_gap_accel_with_rocker_rate
+                            + w2_coupler_z_with_crank_rate))
                 - coupler_u
-                    * (v.crank * w2_coupler_z_with_coupler_v
-                        - v.crank * w2_coupler_z_with_rocker_rate
-                        + sin_crank * coupler_gap_accel_with_sin_rocker
-                        - cos_crank * coupler_gap_accel_with_rocker_accel);
-            let crank_effort_with_cos_crank_and_coupler_v = T::lit(1.7)
+                    * (sin_crank * coupler_gap_accel_with_sin_rocker
+                        - cos_crank * coupler_gap_accel_with_rocker_accel
+                        + v.crank
+                            * (w2_coupler_z_with_coupler_v
+                                - coupler_gap_accel_with_cos_crank));
+            let crank_effort_with_coupler_u_and_sin_crank = T::lit(1.7)
                 * crank_effort_with_coupler_u
                 - T::lit(0.2) * crank_effort_with_sin_crank;
             let minus_a_coupler_y = a_coupler_y_with_crank_rate - T::lit(9.81);
-            let crank_effort_with_coupler_u_and_sin_crank = T::lit(0.2)
+            let crank_effort_with_coupler_u_and_coupler_v = T::lit(0.2)
                 * crank_effort_with_coupler_u
                 + T::lit(1.7) * crank_effort_with_sin_crank;
             let minus_n_coupler_z = T::lit(4.571428571428571)
-                * (crank_effort_with_coupler_u * f_coupler_x_with_sin_crank
+                * (crank_effort_with_coupler_u
+                    * crank_effort_with_cos_crank_and_coupler_v
                     + crank_effort_with_sin_crank
-                        * crank_effort_with_sin_crank_and_cos_crank)
+                        * crank_effort_with_sin_crank_and_coupler_u)
                 + T::lit(1.090204081632653) * coupler_gap_accel_with_coupler_v
-                + crank_effort_with_cos_crank_and_coupler_v * minus_a_coupler_y
-                - minus_a_coupler_x * crank_effort_with_coupler_u_and_sin_crank;
+                + crank_effort_with_coupler_u_and_sin_crank * minus_a_coupler_y
+                - minus_a_coupler_x * crank_effort_with_coupler_u_and_coupler_v;
+            // Results.
             let w2_coupler_z_with_coupler_u = v.crank
                 - T::lit(0.08163265306122448)
                     * (coupler_u * w2_coupler_z_with_crank_rate
                         + minus_coupler_v * w2_coupler_z_with_coupler_v);
             let w2_coupler_z = w2_coupler_z_with_coupler_u * w2_coupler_z_with_coupler_u;
-            let crank_effort_with_rate = T::lit(0.08163265306122448)
-                * coupler_gap_accel_with_coupler_v;
-            let f_coupler_x = T::lit(8.0) * f_coupler_x_with_sin_crank
-                - crank_effort_with_cos_crank_and_coupler_v * w2_coupler_z
-                + crank_effort_with_coupler_u_and_sin_crank * crank_effort_with_rate;
-            // Results.
             let minus_coupler_v_times_minus_n_coupler_z = minus_coupler_v
                 * minus_n_coupler_z;
             let coupler_u_times_minus_n_coupler_z = coupler_u * minus_n_coupler_z;
@@ -938,30 +934,36 @@ pub mod four_bar {
                                 + cos_crank * coupler_u_times_minus_n_coupler_z));
             let crank_effort_with_root_rocker = minus_slope_rocker_inv
                 * crank_effort_with_rocker_accel;
-            let crank_effort_with_root_rocker_times_0_333 = T::lit(0.3333333333333333)
-                * crank_effort_with_root_rocker;
-            let crank_effort_with_w2_coupler_z = crank_effort_with_coupler_u_and_sin_crank
+            let crank_effort_with_rate = T::lit(0.08163265306122448)
+                * coupler_gap_accel_with_coupler_v;
+            let crank_effort_with_w2_coupler_z = crank_effort_with_coupler_u_and_coupler_v
                 * w2_coupler_z - T::lit(39.24)
-                - T::lit(8.0) * crank_effort_with_sin_crank_and_cos_crank
-                + sin_rocker * crank_effort_with_root_rocker
-                + crank_effort_with_cos_crank_and_coupler_v * crank_effort_with_rate
-                - sin_crank * crank_effort_with_root_rocker_times_0_333;
-            let minus_crank_effort = input.torque + minus_n_coupler_z
-                + sin_crank * f_coupler_x
-                + sin_crank
-                    * (minus_rocker_a * crank_effort_with_root_rocker_times_0_333
-                        - cos_rocker * crank_effort_with_root_rocker)
-                + cos_crank * crank_effort_with_w2_coupler_z
-                - T::lit(0.08163265306122448)
-                    * (crank_effort_with_cos_crank * coupler_u_times_minus_n_coupler_z
-                        + minus_coupler_v * minus_coupler_v_times_minus_n_coupler_z);
-            ::multibody::nalgebra::SVector::from([-minus_crank_effort])
+                - T::lit(8.0) * crank_effort_with_sin_crank_and_coupler_u
+                + crank_effort_with_root_rocker
+                    * (sin_rocker - T::lit(0.3333333333333333) * sin_crank)
+                + crank_effort_with_coupler_u_and_sin_crank * crank_effort_with_rate;
+            let crank_effort_with_rocker_a = sin_crank
+                * (T::lit(8.0) * crank_effort_with_cos_crank_and_coupler_v
+                    - crank_effort_with_coupler_u_and_sin_crank * w2_coupler_z
+                    + crank_effort_with_root_rocker
+                        * (T::lit(0.3333333333333333) * minus_rocker_a - cos_rocker)
+                    + crank_effort_with_coupler_u_and_coupler_v
+                        * crank_effort_with_rate);
+            ::multibody::nalgebra::SVector::from([
+                -(input.torque + minus_n_coupler_z
+                    + cos_crank * crank_effort_with_w2_coupler_z
+                    + crank_effort_with_rocker_a
+                    - T::lit(0.08163265306122448)
+                        * (crank_effort_with_cos_crank
+                            * coupler_u_times_minus_n_coupler_z
+                            + minus_coupler_v * minus_coupler_v_times_minus_n_coupler_z)),
+            ])
         }
         /// Outputs.
         ///
         /// Method: world axes.
         ///
-        /// Operations: 183 add, 222 mul, 10 div, 2 sqrt, 1 sincos, 2 other; as derived, before optimisation: 209 add, 282 mul, 10 div, 2 sqrt, 1 sincos, 2 other.
+        /// Operations: 182 add, 216 mul, 10 div, 2 sqrt, 1 sincos, 2 other; as derived, before optimisation: 209 add, 282 mul, 10 div, 2 sqrt, 1 sincos, 2 other.
         #[must_use]
         pub fn outputs(&self, _t: T, state: &State<T>, input: &Input<T>) -> Output<T> {
             let q = &state.q;
@@ -1079,10 +1081,10 @@ pub mod four_bar {
             let accel_with_sin_rocker_times_3 = T::lit(3.0) * accel_with_sin_rocker;
             let coupler_gap_accel_with_w_rocker_z = accel_with_sin_rocker_times_3
                 - cos_rocker_times_3 * rocker_accel;
-            let coupler_accel_with_crank_rate = v.crank * coupler_with_w_rocker_z
-                + v.crank * coupler_with_sin_crank;
-            let coupler_accel_with_sin_rocker = v.crank * coupler_with_sin_rocker
-                - v.crank * coupler_with_crank_rate;
+            let coupler_accel_with_crank_rate = v.crank
+                * (coupler_with_w_rocker_z + coupler_with_sin_crank);
+            let coupler_accel_with_sin_rocker = v.crank
+                * (coupler_with_sin_rocker - coupler_with_crank_rate);
             let coupler_gap_accel_with_coupler_v = minus_coupler_v
                 * (cos_crank * coupler_gap_accel_with_rocker_accel
                     + sin_crank * coupler_gap_accel_with_w_rocker_z
@@ -1108,10 +1110,10 @@ pub mod four_bar {
                     * (T::lit(0.1019367991845056) * a_coupler_y_with_coupler_v
                         - cos_crank_times_coupler_u);
             // Motion of crank.
+            let coupler_u_times_minus_n_coupler_z = coupler_u * minus_n_coupler_z;
             let cos_rocker_times_44_145 = T::lit(44.145) * cos_rocker;
             let minus_coupler_v_times_minus_n_coupler_z = minus_coupler_v
                 * minus_n_coupler_z;
-            let coupler_u_times_minus_n_coupler_z = coupler_u * minus_n_coupler_z;
             let side_1_with_rocker_accel = cos_rocker_times_44_145
                 + T::lit(9.0) * rocker_accel
                 - T::lit(0.24489795918367346)
@@ -1123,8 +1125,6 @@ pub mod four_bar {
                                 - sin_crank * coupler_u_times_minus_n_coupler_z));
             let side_1_with_root_rocker = minus_slope_rocker_inv
                 * side_1_with_rocker_accel;
-            let side_1_with_root_rocker_times_0_333 = T::lit(0.3333333333333333)
-                * side_1_with_root_rocker;
             let w_coupler_z = v.crank - minus_coupler_rate;
             // Force and moment through coupler.
             let w2_coupler_z = w_coupler_z * w_coupler_z;
@@ -1139,45 +1139,43 @@ pub mod four_bar {
             let minus_f_coupler_y = T::lit(0.4857142857142857)
                 * coupler_gap_accel_with_coupler_v + f_coupler_y_with_w2_coupler_z;
             let side_1 = input.torque + minus_n_coupler_z
-                + sin_crank
-                    * (minus_rocker_a * side_1_with_root_rocker_times_0_333
-                        - cos_rocker * side_1_with_root_rocker)
-                + cos_crank
-                    * (sin_rocker * side_1_with_root_rocker - T::lit(39.24)
-                        - sin_crank * side_1_with_root_rocker_times_0_333)
-                + T::lit(0.2857142857142857)
-                    * (minus_coupler_v * f_coupler_x + coupler_u * minus_f_coupler_y)
-                - T::lit(0.08163265306122448)
-                    * (coupler_with_cos_crank * coupler_u_times_minus_n_coupler_z
-                        + minus_coupler_v * minus_coupler_v_times_minus_n_coupler_z);
+                - T::lit(0.08163265306122448) * coupler_with_cos_crank
+                    * coupler_u_times_minus_n_coupler_z
+                + sin_crank * side_1_with_root_rocker
+                    * (T::lit(0.3333333333333333) * minus_rocker_a - cos_rocker)
+                - cos_crank
+                    * (T::lit(39.24)
+                        + side_1_with_root_rocker
+                            * (T::lit(0.3333333333333333) * sin_crank - sin_rocker))
+                + minus_coupler_v
+                    * (T::lit(0.2857142857142857) * f_coupler_x
+                        - T::lit(0.08163265306122448)
+                            * minus_coupler_v_times_minus_n_coupler_z)
+                + coupler_u_times_0_286 * minus_f_coupler_y;
+            // Factorisation L^T D L.
             let f_coupler_passed_y = T::lit(0.2) * minus_coupler_v
                 + T::lit(1.7) * coupler_u;
-            let energy_with_rocker_a = sin_crank * minus_rocker_a
-                - cos_crank * sin_crank;
+            let energy_with_rocker_a = sin_crank * (minus_rocker_a - cos_crank);
             let pivot_1_with_root_rocker = minus_slope_rocker_inv
-                * (cos_crank_times_sin_rocker
-                    + T::lit(0.3333333333333333) * energy_with_rocker_a
-                    - sin_crank * cos_rocker);
-            let m_1_2 = T::lit(13.355) + f_coupler_passed_y;
-            // Factorisation L^T D L.
+                * (cos_crank_times_sin_rocker - sin_crank * cos_rocker
+                    + T::lit(0.3333333333333333) * energy_with_rocker_a);
             let sin_rocker_times_pivot_1_with_root_rocker = sin_rocker
                 * pivot_1_with_root_rocker;
             let cos_rocker_times_pivot_1_with_root_rocker = cos_rocker
                 * pivot_1_with_root_rocker;
-            let pivot_1_with_coupler_v = minus_coupler_v_times_0_286
+            let pivot_1_with_coupler_v = minus_coupler_v
                 * (minus_coupler_v
                     - T::lit(3.0)
                         * (cos_crank * sin_rocker_times_pivot_1_with_root_rocker
                             - sin_crank * cos_rocker_times_pivot_1_with_root_rocker))
-                + coupler_u_times_0_286
+                + coupler_u
                     * (coupler_with_cos_crank
                         + T::lit(3.0)
                             * (sin_crank * sin_rocker_times_pivot_1_with_root_rocker
                                 + cos_crank * cos_rocker_times_pivot_1_with_root_rocker));
-            let minus_pivot_1 = T::lit(0.2857142857142857)
-                * (m_1_2 * pivot_1_with_coupler_v
-                    + pivot_1_with_coupler_v
-                        * (m_1_2 - T::lit(3.815714285714286) * pivot_1_with_coupler_v))
+            let minus_pivot_1 = T::lit(0.16326530612244897) * pivot_1_with_coupler_v
+                * (T::lit(13.355) + f_coupler_passed_y
+                    - T::lit(0.5451020408163265) * pivot_1_with_coupler_v)
                 - T::lit(17.188333333333333) - T::lit(2.0) * f_coupler_passed_y
                 - T::lit(9.0) * pivot_1_with_root_rocker * pivot_1_with_root_rocker;
             let minus_dw_crank_z = side_1 / minus_pivot_1;
@@ -1240,10 +1238,10 @@ pub mod four_bar {
             // Results.
             let energy_with_w2_crank_z = w2_crank_z
                 + T::lit(3.483913043478261) * w2_coupler_z
-                + T::lit(0.10434782608695652) * crank_rate_times_minus_coupler_v
-                    * w_coupler_z
-                + T::lit(0.8869565217391304) * v.crank * coupler_u * w_coupler_z
-                + T::lit(2.347826086956522) * minus_w_rocker_z * minus_w_rocker_z;
+                + T::lit(2.347826086956522) * minus_w_rocker_z * minus_w_rocker_z
+                + w_coupler_z
+                    * (T::lit(0.10434782608695652) * crank_rate_times_minus_coupler_v
+                        + T::lit(0.8869565217391304) * v.crank * coupler_u);
             let minus_energy = T::lit(9.81)
                 * (energy_with_rocker_a - T::lit(0.7) * energy_with_sin_crank
                     - T::lit(5.95) * energy_with_coupler_u) - T::lit(44.145) * sin_rocker
@@ -1306,7 +1304,7 @@ pub mod four_bar {
         ///
         /// Method: closed forms, determinants.
         ///
-        /// Operations: 6 add, 9 mul, 1 sqrt, 1 sincos; as derived, before optimisation: 6 add, 11 mul, 1 sqrt, 1 sincos.
+        /// Operations: 6 add, 8 mul, 1 sqrt, 1 sincos; as derived, before optimisation: 6 add, 11 mul, 1 sqrt, 1 sincos.
         #[must_use]
         pub fn margins(
             &self,
@@ -1321,13 +1319,11 @@ pub mod four_bar {
             let rocker_d = cos_crank_minus_4 * cos_crank_minus_4 + sin_crank * sin_crank;
             let minus_rocker_c = T::lit(0.16666666666666666) * rocker_d
                 - T::lit(0.5416666666666666);
-            // Results.
-            let crank_rate_times_sin_crank = v.crank * sin_crank;
             ::multibody::nalgebra::SVector::from([
                 Real::sqrt(rocker_d - minus_rocker_c * minus_rocker_c),
-                (-(cos_crank_minus_4 * crank_rate_times_sin_crank
-                    - cos_crank * crank_rate_times_sin_crank)
-                    * (T::lit(2.0) - T::lit(0.6666666666666666) * minus_rocker_c)),
+                (-v.crank * sin_crank
+                    * (T::lit(2.0) - T::lit(0.6666666666666666) * minus_rocker_c)
+                    * (cos_crank_minus_4 - cos_crank)),
             ])
         }
     }
@@ -1521,8 +1517,8 @@ pub mod four_bar {
         },
         ::multibody::Cost {
             function: "forward_dynamics",
-            add: 78,
-            mul: 139,
+            add: 77,
+            mul: 132,
             div: 4,
             sqrt: 2,
             sincos: 1,
@@ -1531,7 +1527,7 @@ pub mod four_bar {
         ::multibody::Cost {
             function: "inverse_dynamics",
             add: 75,
-            mul: 124,
+            mul: 120,
             div: 3,
             sqrt: 2,
             sincos: 1,
@@ -1539,8 +1535,8 @@ pub mod four_bar {
         },
         ::multibody::Cost {
             function: "mass_matrix",
-            add: 25,
-            mul: 42,
+            add: 24,
+            mul: 36,
             div: 2,
             sqrt: 1,
             sincos: 1,
@@ -1549,7 +1545,7 @@ pub mod four_bar {
         ::multibody::Cost {
             function: "bias",
             add: 65,
-            mul: 115,
+            mul: 111,
             div: 3,
             sqrt: 2,
             sincos: 1,
@@ -1557,8 +1553,8 @@ pub mod four_bar {
         },
         ::multibody::Cost {
             function: "outputs",
-            add: 183,
-            mul: 222,
+            add: 182,
+            mul: 216,
             div: 10,
             sqrt: 2,
             sincos: 1,
@@ -1576,7 +1572,7 @@ pub mod four_bar {
         ::multibody::Cost {
             function: "margins",
             add: 6,
-            mul: 9,
+            mul: 8,
             div: 0,
             sqrt: 1,
             sincos: 1,
@@ -1605,8 +1601,8 @@ pub mod four_bar {
         },
         ::multibody::Cost {
             function: "mass_matrix",
-            add: 30,
-            mul: 51,
+            add: 28,
+            mul: 48,
             div: 2,
             sqrt: 1,
             sincos: 1,

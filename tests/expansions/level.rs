@@ -54,7 +54,7 @@
 /// | function | method | operations | as derived |
 /// |---|---|---|---|
 /// | `new` |  | 6 add |  |
-/// | `forward_dynamics` | struts, condensed | 151 add, 165 mul, 9 div, 6 sqrt | 173 add, 225 mul, 9 div, 6 sqrt |
+/// | `forward_dynamics` | struts, condensed | 145 add, 160 mul, 9 div, 6 sqrt | 173 add, 225 mul, 9 div, 6 sqrt |
 /// | `inverse_dynamics` | struts, moments about a point of the pins' plane | 154 add, 164 mul, 7 div, 6 sqrt, 3 other | 187 add, 183 mul, 7 div, 6 sqrt, 3 other |
 /// | `dead_centres` | closed forms | 34 add, 31 mul, 12 sqrt | 48 add, 31 mul, 12 sqrt |
 /// | `margins` | closed forms, determinants | 64 add, 69 mul, 12 sqrt | 78 add, 69 mul, 12 sqrt |
@@ -556,6 +556,12 @@ pub mod level {
         legs_0_k: T,
         /// `legs[0].c`
         legs_0_c: T,
+        /// `1 + legs[3].s0`
+        legs_3_force_factor: T,
+        /// `legs[3].k`
+        legs_3_k: T,
+        /// `legs[3].c`
+        legs_3_c: T,
         /// `1 + legs[1].s0`
         legs_1_force_factor: T,
         /// `legs[1].k`
@@ -568,12 +574,6 @@ pub mod level {
         legs_2_k: T,
         /// `legs[2].c`
         legs_2_c: T,
-        /// `1 + legs[3].s0`
-        legs_3_force_factor: T,
-        /// `legs[3].k`
-        legs_3_k: T,
-        /// `legs[3].c`
-        legs_3_c: T,
         /// `1 + legs[4].s0`
         legs_4_force_factor: T,
         /// `legs[4].k`
@@ -597,15 +597,15 @@ pub mod level {
                 legs_0_force_factor: T::lit(1.0) + params.legs[0].s0,
                 legs_0_k: params.legs[0].k,
                 legs_0_c: params.legs[0].c,
+                legs_3_force_factor: T::lit(1.0) + params.legs[3].s0,
+                legs_3_k: params.legs[3].k,
+                legs_3_c: params.legs[3].c,
                 legs_1_force_factor: T::lit(1.0) + params.legs[1].s0,
                 legs_1_k: params.legs[1].k,
                 legs_1_c: params.legs[1].c,
                 legs_2_force_factor: T::lit(1.0) + params.legs[2].s0,
                 legs_2_k: params.legs[2].k,
                 legs_2_c: params.legs[2].c,
-                legs_3_force_factor: T::lit(1.0) + params.legs[3].s0,
-                legs_3_k: params.legs[3].k,
-                legs_3_c: params.legs[3].c,
                 legs_4_force_factor: T::lit(1.0) + params.legs[4].s0,
                 legs_4_k: params.legs[4].k,
                 legs_4_c: params.legs[4].c,
@@ -618,7 +618,7 @@ pub mod level {
         ///
         /// Method: struts, condensed.
         ///
-        /// Operations: 151 add, 165 mul, 9 div, 6 sqrt; as derived, before optimisation: 173 add, 225 mul, 9 div, 6 sqrt.
+        /// Operations: 145 add, 160 mul, 9 div, 6 sqrt; as derived, before optimisation: 173 add, 225 mul, 9 div, 6 sqrt.
         #[must_use]
         pub fn forward_dynamics(
             &self,
@@ -629,8 +629,8 @@ pub mod level {
             let q = &state.q;
             let v = &state.v;
             // Strut legs_0.
-            let legs_0_line_x = T::lit(2.29) + q.platform.x;
             let legs_0_line_y = q.platform.y - T::lit(0.779);
+            let legs_0_line_x = T::lit(2.29) + q.platform.x;
             let legs_0_line_z = q.platform.z - T::lit(0.4);
             let legs_0_line_z_squared = legs_0_line_z * legs_0_line_z;
             let legs_0_line_x_squared_plus_z_squared = legs_0_line_x * legs_0_line_x
@@ -639,30 +639,21 @@ pub mod level {
                 legs_0_line_y * legs_0_line_y + legs_0_line_x_squared_plus_z_squared,
             );
             let legs_0_length_inv = T::lit(1.0) / legs_0_length;
-            let legs_swing_with_platform_x_rate = v.platform.x * v.platform.x
-                + v.platform.y * v.platform.y + v.platform.z * v.platform.z;
             let platform_z_rate_times_legs_0_line_z = v.platform.z * legs_0_line_z;
             let legs_line_by_rate_with_platform_x_rate = v.platform.x * legs_0_line_x
                 + platform_z_rate_times_legs_0_line_z;
             let legs_0_length_rate = legs_0_length_inv
                 * (v.platform.y * legs_0_line_y
                     + legs_line_by_rate_with_platform_x_rate);
-            let legs_0_length_inv_squared = legs_0_length_inv * legs_0_length_inv;
             let legs_0_length_inv_times_0_0625 = T::lit(0.0625) * legs_0_length_inv;
             let legs_0_swell = legs_0_length_inv_times_0_0625 - T::lit(0.1);
+            let legs_0_length_inv_squared = legs_0_length_inv * legs_0_length_inv;
             let minus_legs_0_beta = legs_0_length_rate
                 * (legs_0_length_inv_times_0_0625 + legs_0_swell)
                 * legs_0_length_inv_squared;
-            let minus_legs_0_force = T::lit(0.05)
-                * (legs_swing_with_platform_x_rate
-                    - legs_0_length_rate * legs_0_length_rate)
-                * legs_0_length_inv_squared - input.legs[0].thrust
-                - self.legs_0_k * (self.legs_0_force_factor - legs_0_length)
-                + legs_0_length_rate * (self.legs_0_c + minus_legs_0_beta);
-            let minus_legs_0_force_by_length = legs_0_length_inv * minus_legs_0_force;
             // Strut legs_1.
-            let legs_1_line_x = T::lit(1.78) + q.platform.x;
             let legs_1_line_y = q.platform.y - T::lit(1.074);
+            let legs_1_line_x = T::lit(1.78) + q.platform.x;
             let legs_length_squared_with_legs_0_line_z = legs_0_line_z_squared
                 + legs_1_line_x * legs_1_line_x;
             let legs_1_length = Real::sqrt(
@@ -673,19 +664,12 @@ pub mod level {
                 + v.platform.x * legs_1_line_x;
             let legs_1_length_rate = legs_1_length_inv
                 * (v.platform.y * legs_1_line_y + legs_line_by_rate_with_legs_1_line_x);
-            let legs_1_length_inv_squared = legs_1_length_inv * legs_1_length_inv;
             let legs_1_length_inv_times_0_0625 = T::lit(0.0625) * legs_1_length_inv;
             let legs_1_swell = legs_1_length_inv_times_0_0625 - T::lit(0.1);
+            let legs_1_length_inv_squared = legs_1_length_inv * legs_1_length_inv;
             let minus_legs_1_beta = legs_1_length_rate
                 * (legs_1_length_inv_times_0_0625 + legs_1_swell)
                 * legs_1_length_inv_squared;
-            let minus_legs_1_force = T::lit(0.05)
-                * (legs_swing_with_platform_x_rate
-                    - legs_1_length_rate * legs_1_length_rate)
-                * legs_1_length_inv_squared - input.legs[1].thrust
-                - self.legs_1_k * (self.legs_1_force_factor - legs_1_length)
-                + legs_1_length_rate * (self.legs_1_c + minus_legs_1_beta);
-            let minus_legs_1_force_by_length = legs_1_length_inv * minus_legs_1_force;
             // Strut legs_2.
             let legs_2_line_y = T::lit(1.074) + q.platform.y;
             let legs_2_length = Real::sqrt(
@@ -694,19 +678,12 @@ pub mod level {
             let legs_2_length_inv = T::lit(1.0) / legs_2_length;
             let legs_2_length_rate = legs_2_length_inv
                 * (v.platform.y * legs_2_line_y + legs_line_by_rate_with_legs_1_line_x);
-            let legs_2_length_inv_squared = legs_2_length_inv * legs_2_length_inv;
             let legs_2_length_inv_times_0_0625 = T::lit(0.0625) * legs_2_length_inv;
             let legs_2_swell = legs_2_length_inv_times_0_0625 - T::lit(0.1);
+            let legs_2_length_inv_squared = legs_2_length_inv * legs_2_length_inv;
             let minus_legs_2_beta = legs_2_length_rate
                 * (legs_2_length_inv_times_0_0625 + legs_2_swell)
                 * legs_2_length_inv_squared;
-            let minus_legs_2_force = T::lit(0.05)
-                * (legs_swing_with_platform_x_rate
-                    - legs_2_length_rate * legs_2_length_rate)
-                * legs_2_length_inv_squared - input.legs[2].thrust
-                - self.legs_2_k * (self.legs_2_force_factor - legs_2_length)
-                + legs_2_length_rate * (self.legs_2_c + minus_legs_2_beta);
-            let minus_legs_2_force_by_length = legs_2_length_inv * minus_legs_2_force;
             // Strut legs_3.
             let legs_3_line_y = T::lit(0.779) + q.platform.y;
             let legs_3_length = Real::sqrt(
@@ -716,22 +693,15 @@ pub mod level {
             let legs_3_length_rate = legs_3_length_inv
                 * (v.platform.y * legs_3_line_y
                     + legs_line_by_rate_with_platform_x_rate);
-            let legs_3_length_inv_squared = legs_3_length_inv * legs_3_length_inv;
             let legs_3_length_inv_times_0_0625 = T::lit(0.0625) * legs_3_length_inv;
             let legs_3_swell = legs_3_length_inv_times_0_0625 - T::lit(0.1);
+            let legs_3_length_inv_squared = legs_3_length_inv * legs_3_length_inv;
             let minus_legs_3_beta = legs_3_length_rate
                 * (legs_3_length_inv_times_0_0625 + legs_3_swell)
                 * legs_3_length_inv_squared;
-            let minus_legs_3_force = T::lit(0.05)
-                * (legs_swing_with_platform_x_rate
-                    - legs_3_length_rate * legs_3_length_rate)
-                * legs_3_length_inv_squared - input.legs[3].thrust
-                - self.legs_3_k * (self.legs_3_force_factor - legs_3_length)
-                + legs_3_length_rate * (self.legs_3_c + minus_legs_3_beta);
-            let minus_legs_3_force_by_length = legs_3_length_inv * minus_legs_3_force;
             // Strut legs_4.
-            let legs_4_line_x = T::lit(43.0 / 100.0) + q.platform.x;
             let legs_4_line_y = q.platform.y - T::lit(0.295);
+            let legs_4_line_x = T::lit(43.0 / 100.0) + q.platform.x;
             let legs_length_squared_with_legs_4_line_x = legs_0_line_z_squared
                 + legs_4_line_x * legs_4_line_x;
             let legs_4_length = Real::sqrt(
@@ -742,19 +712,12 @@ pub mod level {
                 + v.platform.x * legs_4_line_x;
             let legs_4_length_rate = legs_4_length_inv
                 * (v.platform.y * legs_4_line_y + legs_line_by_rate_with_legs_4_line_x);
-            let legs_4_length_inv_squared = legs_4_length_inv * legs_4_length_inv;
             let legs_4_length_inv_times_0_0625 = T::lit(0.0625) * legs_4_length_inv;
             let legs_4_swell = legs_4_length_inv_times_0_0625 - T::lit(0.1);
+            let legs_4_length_inv_squared = legs_4_length_inv * legs_4_length_inv;
             let minus_legs_4_beta = legs_4_length_rate
                 * (legs_4_length_inv_times_0_0625 + legs_4_swell)
                 * legs_4_length_inv_squared;
-            let minus_legs_4_force = T::lit(0.05)
-                * (legs_swing_with_platform_x_rate
-                    - legs_4_length_rate * legs_4_length_rate)
-                * legs_4_length_inv_squared - input.legs[4].thrust
-                - self.legs_4_k * (self.legs_4_force_factor - legs_4_length)
-                + legs_4_length_rate * (self.legs_4_c + minus_legs_4_beta);
-            let minus_legs_4_force_by_length = legs_4_length_inv * minus_legs_4_force;
             // Strut legs_5.
             let legs_5_line_y = T::lit(0.295) + q.platform.y;
             let legs_5_length = Real::sqrt(
@@ -763,12 +726,57 @@ pub mod level {
             let legs_5_length_inv = T::lit(1.0) / legs_5_length;
             let legs_5_length_rate = legs_5_length_inv
                 * (v.platform.y * legs_5_line_y + legs_line_by_rate_with_legs_4_line_x);
-            let legs_5_length_inv_squared = legs_5_length_inv * legs_5_length_inv;
             let legs_5_length_inv_times_0_0625 = T::lit(0.0625) * legs_5_length_inv;
             let legs_5_swell = legs_5_length_inv_times_0_0625 - T::lit(0.1);
+            let legs_5_length_inv_squared = legs_5_length_inv * legs_5_length_inv;
             let minus_legs_5_beta = legs_5_length_rate
                 * (legs_5_length_inv_times_0_0625 + legs_5_swell)
                 * legs_5_length_inv_squared;
+            let side_with_legs_0_beta = minus_legs_0_beta + minus_legs_1_beta
+                + minus_legs_2_beta + minus_legs_3_beta + minus_legs_4_beta
+                + minus_legs_5_beta;
+            // Strut legs_0.
+            let legs_swing_with_platform_x_rate = v.platform.x * v.platform.x
+                + v.platform.y * v.platform.y + v.platform.z * v.platform.z;
+            let minus_legs_0_force = T::lit(0.05)
+                * (legs_swing_with_platform_x_rate
+                    - legs_0_length_rate * legs_0_length_rate)
+                * legs_0_length_inv_squared - input.legs[0].thrust
+                - self.legs_0_k * (self.legs_0_force_factor - legs_0_length)
+                + legs_0_length_rate * (self.legs_0_c + minus_legs_0_beta);
+            let minus_legs_0_force_by_length = legs_0_length_inv * minus_legs_0_force;
+            let minus_legs_3_force = T::lit(0.05)
+                * (legs_swing_with_platform_x_rate
+                    - legs_3_length_rate * legs_3_length_rate)
+                * legs_3_length_inv_squared - input.legs[3].thrust
+                - self.legs_3_k * (self.legs_3_force_factor - legs_3_length)
+                + legs_3_length_rate * (self.legs_3_c + minus_legs_3_beta);
+            let minus_legs_3_force_by_length = legs_3_length_inv * minus_legs_3_force;
+            let side_3_with_legs_0_force_by_length = minus_legs_0_force_by_length
+                + minus_legs_3_force_by_length;
+            let minus_legs_1_force = T::lit(0.05)
+                * (legs_swing_with_platform_x_rate
+                    - legs_1_length_rate * legs_1_length_rate)
+                * legs_1_length_inv_squared - input.legs[1].thrust
+                - self.legs_1_k * (self.legs_1_force_factor - legs_1_length)
+                + legs_1_length_rate * (self.legs_1_c + minus_legs_1_beta);
+            let minus_legs_1_force_by_length = legs_1_length_inv * minus_legs_1_force;
+            let minus_legs_2_force = T::lit(0.05)
+                * (legs_swing_with_platform_x_rate
+                    - legs_2_length_rate * legs_2_length_rate)
+                * legs_2_length_inv_squared - input.legs[2].thrust
+                - self.legs_2_k * (self.legs_2_force_factor - legs_2_length)
+                + legs_2_length_rate * (self.legs_2_c + minus_legs_2_beta);
+            let minus_legs_2_force_by_length = legs_2_length_inv * minus_legs_2_force;
+            let side_3_with_legs_1_force_by_length = minus_legs_1_force_by_length
+                + minus_legs_2_force_by_length;
+            let minus_legs_4_force = T::lit(0.05)
+                * (legs_swing_with_platform_x_rate
+                    - legs_4_length_rate * legs_4_length_rate)
+                * legs_4_length_inv_squared - input.legs[4].thrust
+                - self.legs_4_k * (self.legs_4_force_factor - legs_4_length)
+                + legs_4_length_rate * (self.legs_4_c + minus_legs_4_beta);
+            let minus_legs_4_force_by_length = legs_4_length_inv * minus_legs_4_force;
             let minus_legs_5_force = T::lit(0.05)
                 * (legs_swing_with_platform_x_rate
                     - legs_5_length_rate * legs_5_length_rate)
@@ -776,45 +784,43 @@ pub mod level {
                 - self.legs_5_k * (self.legs_5_force_factor - legs_5_length)
                 + legs_5_length_rate * (self.legs_5_c + minus_legs_5_beta);
             let minus_legs_5_force_by_length = legs_5_length_inv * minus_legs_5_force;
-            let side_with_legs_0_beta = minus_legs_0_beta + minus_legs_1_beta
-                + minus_legs_2_beta + minus_legs_3_beta + minus_legs_4_beta
-                + minus_legs_5_beta;
-            let minus_body_force_x = legs_0_line_x * minus_legs_0_force_by_length
-                + legs_1_line_x * minus_legs_1_force_by_length
-                + legs_1_line_x * minus_legs_2_force_by_length
-                + legs_0_line_x * minus_legs_3_force_by_length
-                + legs_4_line_x * minus_legs_4_force_by_length
-                + legs_4_line_x * minus_legs_5_force_by_length
-                - v.platform.x * side_with_legs_0_beta;
-            // Strut legs_0.
+            let side_3_with_legs_4_force_by_length = minus_legs_4_force_by_length
+                + minus_legs_5_force_by_length;
+            let minus_body_force_x = legs_0_line_x * side_3_with_legs_0_force_by_length
+                - v.platform.x * side_with_legs_0_beta
+                + legs_1_line_x * side_3_with_legs_1_force_by_length
+                + legs_4_line_x * side_3_with_legs_4_force_by_length;
             let legs_0_mu = legs_0_length_inv * legs_0_swell;
-            let legs_0_nu = legs_0_mu * legs_0_length_inv_squared;
-            let legs_0_nu_line_x = legs_0_line_x * legs_0_nu;
-            // Strut legs_1.
             let legs_1_mu = legs_1_length_inv * legs_1_swell;
-            let legs_1_nu = legs_1_mu * legs_1_length_inv_squared;
-            let legs_1_nu_line_x = legs_1_line_x * legs_1_nu;
-            // Strut legs_2.
             let legs_2_mu = legs_2_length_inv * legs_2_swell;
-            let legs_2_nu = legs_2_mu * legs_2_length_inv_squared;
-            let legs_2_nu_line_x = legs_1_line_x * legs_2_nu;
-            // Strut legs_3.
             let legs_3_mu = legs_3_length_inv * legs_3_swell;
-            let legs_3_nu = legs_3_mu * legs_3_length_inv_squared;
-            let legs_3_nu_line_x = legs_0_line_x * legs_3_nu;
-            // Strut legs_4.
             let legs_4_mu = legs_4_length_inv * legs_4_swell;
-            let legs_4_nu = legs_4_mu * legs_4_length_inv_squared;
-            let legs_4_nu_line_x = legs_4_line_x * legs_4_nu;
             let legs_5_mu = legs_5_length_inv * legs_5_swell;
             let body_and_struts_mass = T::lit(2.1) + legs_0_mu + legs_1_mu + legs_2_mu
                 + legs_3_mu + legs_4_mu + legs_5_mu;
+            let legs_0_nu = legs_0_mu * legs_0_length_inv_squared;
+            let legs_0_nu_line_x = legs_0_line_x * legs_0_nu;
+            let legs_3_nu = legs_3_mu * legs_3_length_inv_squared;
+            let legs_3_nu_line_x = legs_0_line_x * legs_3_nu;
+            let legs_0_nu_line_x_plus_legs_3_nu_line_x = legs_0_nu_line_x
+                + legs_3_nu_line_x;
+            let legs_1_nu = legs_1_mu * legs_1_length_inv_squared;
+            let legs_1_nu_line_x = legs_1_line_x * legs_1_nu;
+            let legs_2_nu = legs_2_mu * legs_2_length_inv_squared;
+            let legs_2_nu_line_x = legs_1_line_x * legs_2_nu;
+            let legs_1_nu_line_x_plus_legs_2_nu_line_x = legs_1_nu_line_x
+                + legs_2_nu_line_x;
+            let legs_4_nu = legs_4_mu * legs_4_length_inv_squared;
+            let legs_4_nu_line_x = legs_4_line_x * legs_4_nu;
             let legs_5_nu = legs_5_mu * legs_5_length_inv_squared;
             let legs_5_nu_line_x = legs_4_line_x * legs_5_nu;
-            let minus_pivot_1 = legs_0_line_x * legs_0_nu_line_x
-                + legs_1_line_x * legs_1_nu_line_x + legs_1_line_x * legs_2_nu_line_x
-                + legs_0_line_x * legs_3_nu_line_x + legs_4_line_x * legs_4_nu_line_x
-                - body_and_struts_mass + legs_4_line_x * legs_5_nu_line_x;
+            // Factorisation L^T D L.
+            let legs_4_nu_line_x_plus_legs_5_nu_line_x = legs_4_nu_line_x
+                + legs_5_nu_line_x;
+            let minus_pivot_1 = legs_0_line_x * legs_0_nu_line_x_plus_legs_3_nu_line_x
+                - body_and_struts_mass
+                + legs_1_line_x * legs_1_nu_line_x_plus_legs_2_nu_line_x
+                + legs_4_line_x * legs_4_nu_line_x_plus_legs_5_nu_line_x;
             let minus_inverse_1 = T::lit(1.0) / minus_pivot_1;
             let minus_inertia_x_y = legs_0_line_y * legs_0_nu_line_x
                 + legs_1_line_y * legs_1_nu_line_x + legs_2_line_y * legs_2_nu_line_x
@@ -834,33 +840,32 @@ pub mod level {
             let legs_3_nu_line_y = legs_3_line_y * legs_3_nu;
             let legs_4_nu_line_y = legs_4_line_y * legs_4_nu;
             let legs_5_nu_line_y = legs_5_line_y * legs_5_nu;
-            // Factorisation L^T D L.
             let minus_pivot_2 = legs_0_line_y * legs_0_nu_line_y
                 + legs_1_line_y * legs_1_nu_line_y + legs_2_line_y * legs_2_nu_line_y
                 + legs_3_line_y * legs_3_nu_line_y + legs_4_line_y * legs_4_nu_line_y
                 - body_and_struts_mass + legs_5_line_y * legs_5_nu_line_y
                 - minus_inertia_x_y * l_1_2;
             let minus_inverse_2 = T::lit(1.0) / minus_pivot_2;
-            let inertia_x_z_with_legs_0_nu_line_x = legs_0_nu_line_x + legs_1_nu_line_x
-                + legs_2_nu_line_x + legs_3_nu_line_x + legs_4_nu_line_x
-                + legs_5_nu_line_x;
-            let minus_entry_2_3 = legs_0_line_z
-                * (legs_0_nu_line_y + legs_1_nu_line_y + legs_2_nu_line_y
-                    + legs_3_nu_line_y + legs_4_nu_line_y + legs_5_nu_line_y
-                    - l_1_2 * inertia_x_z_with_legs_0_nu_line_x);
-            let l_2_3 = minus_entry_2_3 * minus_inverse_2;
-            let minus_inertia_x_z = legs_0_line_z * inertia_x_z_with_legs_0_nu_line_x;
-            let l_1_3 = minus_inertia_x_z * minus_inverse_1;
+            let pivot_3_with_legs_0_nu_line_x = legs_0_nu_line_x_plus_legs_3_nu_line_x
+                + legs_1_nu_line_x_plus_legs_2_nu_line_x
+                + legs_4_nu_line_x_plus_legs_5_nu_line_x;
+            let pivot_3_with_legs_0_nu_line_y = legs_0_nu_line_y + legs_1_nu_line_y
+                + legs_2_nu_line_y + legs_3_nu_line_y + legs_4_nu_line_y
+                + legs_5_nu_line_y - l_1_2 * pivot_3_with_legs_0_nu_line_x;
+            let l_2_3 = legs_0_line_z * minus_inverse_2 * pivot_3_with_legs_0_nu_line_y;
+            let l_1_3 = legs_0_line_z * minus_inverse_1 * pivot_3_with_legs_0_nu_line_x;
             let minus_side_3 = T::lit(20.593965) - minus_body_force_x * l_1_3
                 - minus_side_2 * l_2_3 - v.platform.z * side_with_legs_0_beta
                 + legs_0_line_z
-                    * (minus_legs_0_force_by_length + minus_legs_1_force_by_length
-                        + minus_legs_2_force_by_length + minus_legs_3_force_by_length
-                        + minus_legs_4_force_by_length + minus_legs_5_force_by_length);
-            let minus_pivot_3 = legs_0_line_z_squared
+                    * (side_3_with_legs_0_force_by_length
+                        + side_3_with_legs_1_force_by_length
+                        + side_3_with_legs_4_force_by_length);
+            let pivot_3_with_legs_0_line_z = legs_0_line_z
                 * (legs_0_nu + legs_1_nu + legs_2_nu + legs_3_nu + legs_4_nu + legs_5_nu)
-                - body_and_struts_mass - minus_inertia_x_z * l_1_3
-                - minus_entry_2_3 * l_2_3;
+                - l_1_3 * pivot_3_with_legs_0_nu_line_x
+                - l_2_3 * pivot_3_with_legs_0_nu_line_y;
+            let minus_pivot_3 = legs_0_line_z * pivot_3_with_legs_0_line_z
+                - body_and_struts_mass;
             // Results.
             let platform_z_accel = minus_side_3 / minus_pivot_3;
             let platform_y_accel = minus_side_2 * minus_inverse_2
@@ -2421,8 +2426,8 @@ pub mod level {
         },
         ::multibody::Cost {
             function: "forward_dynamics",
-            add: 151,
-            mul: 165,
+            add: 145,
+            mul: 160,
             div: 9,
             sqrt: 6,
             sincos: 0,

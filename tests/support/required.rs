@@ -60,7 +60,7 @@ pub const CASES: &[Case] = &[
     case("double_points", "forward_dynamics", [8, 13, 1, 0, 2], 26, "Lagrange's equations in absolute angles, sin(q1 + q2) from the sines of both"),
     case("double_points", "inverse_dynamics", [10, 14, 0, 0, 2], 23, "the same, without the solution"),
     case("double_points", "mass_matrix", [2, 2, 0, 0, 1], 4, "K + 2 B cos q2, C + B cos q2, C"),
-    case("double_points", "bias", [5, 9, 0, 0, 2], 15, "B s w1^2 + G2 s12, the same - B s w12^2 + G1 s1"),
+    case("double_points", "bias", [5, 9, 0, 0, 2], 16, "B s w1^2 + G2 s12, the same - B s w12^2 + G1 s1"),
     case("double_rods", "forward_dynamics", [8, 13, 1, 0, 2], 26, "as of points, with other literals"),
     case("double_rods", "inverse_dynamics", [10, 14, 0, 0, 2], 25, "as of points, with other literals"),
     case("double_rods", "mass_matrix", [2, 2, 0, 0, 1], 4, "as of points, with other literals"),

@@ -97,7 +97,7 @@ fn saving(dag: &Dag, terms: &[(Number, Id)], node: Id, list: &[usize]) -> i64 {
             early += i64::from(rest.all(|&f| dag.nodes[f].stage <= Stage::Parameter));
         }
     }
-    if dag.nodes[node].stage > Stage::Parameter { saved + early.saturating_sub(1) } else { saved }
+    if dag.nodes[node].stage > Stage::Parameter { saved + (early - 1).max(0) } else { saved }
 }
 
 fn extract(dag: &mut Dag, id: Id, terms: &[(Number, Id)], choice: &Choice, uses: &mut Vec<u32>) -> bool {

@@ -261,7 +261,7 @@ fn choices_in_parts() {
             body tail { mass: 0.2, com: [0.0, 0.1, 0.05], inertia: diag(0.01, 0.02, 0.03) }
             body bob { mass: 0.2, com: [0.02, 0.1, 0.05], inertia: inertia(0.02, 0.025, 0.03, 0.001, 0.002, 0.003) }
             joint hang: Ball { parent: carrier, child: bob, coordinates: RollPitchYaw }
-            joint bob_omega_x: Revolute { parent: bob, child: tail, axis: X }
+            joint bob_omega_x: Revolute { parent: bob, child: tail, axis: Y }
         }";
     let items = "body base { mass: 1.0 } joint slide: Prismatic { parent: ground, child: base, axis: X }
         part limbs: [limb; 2] = |k| limb { carrier: base.at(0.5 * k * Y) };
