@@ -121,6 +121,11 @@ pub fn derive(model: &Model, structure: &Structure) -> Result<Derivation, Vec<Co
     // Last, so that nothing of them is found by what is emitted.
     let asked: Vec<FunctionKind> = functions.iter().map(|function| function.kind).collect();
     let witnesses = deriving.witnesses(&asked)?;
+    let mut turns = Vec::new();
+    deriving.only("", |e| {
+        turns = e.turning();
+        Ok(Results::default())
+    })?;
     let limbs = (model.packs == Packs::Four).then(|| {
         let value = |&(symbol, value): &(Scalar, Scalar)| {
             Some((deriving.graph.symbol_id(symbol)?, deriving.graph.literal(value)?.value()))
@@ -144,6 +149,7 @@ pub fn derive(model: &Model, structure: &Structure) -> Result<Derivation, Vec<Co
         checks,
         inertia,
         witnesses,
+        turns,
         limbs,
     })
 }

@@ -2,12 +2,13 @@
 //!
 //! Rooms: [`translate`] makes the tree of links and the values of expressions, [`loops`] says which coordinates follow and
 //! how, [`analysis`] decides that in numbers beforehand, `results` has one file per thing that functions give, [`strut`] the
-//! short way for bodies on struts; [`derive()`] tells which functions are made, and in which ways. [`scene`] is
+//! short way for bodies on struts, `headings` what moves on planes; [`derive()`] tells which functions are made, and in which ways. [`scene`] is
 //! what a derivation is about, and [`equations`] what it has made. [`poses`] has frames in numbers, for drawings.
 
 pub mod analysis;
 mod derive;
 pub mod equations;
+mod headings;
 pub mod limbs;
 pub mod loops;
 pub mod poses;
@@ -28,6 +29,7 @@ use crate::contracts::results::Results;
 use crate::contracts::symbol::Symbol;
 use crate::model::types::{Coordinate, Model};
 use crate::symbolic::graph::{Graph, Scalar};
+use crate::symbolic::turned::Turn;
 
 use analysis::Complaint;
 use loops::advice::Pivoted;
@@ -73,6 +75,8 @@ pub struct Derivation {
     pub inertia: Inertia<Vec<Scalar>>,
     /// Functions that were not asked for, which laws compare with those that were.
     pub witnesses: Vec<Witness>,
+    /// Headings of motions on planes.
+    pub turns: Vec<Turn>,
     /// What may be packed; nothing where the model wants no packs.
     pub limbs: Option<limbs::Limbs>,
 }

@@ -34,8 +34,9 @@ use crate::invariant::fault::OrFault;
 use crate::invariant::injection::{Break, broken};
 use crate::mechanics::limbs::Limbs;
 use crate::mechanics::{Derivation, Derived, Inertia};
-use crate::symbolic::graph::Scalar;
+use crate::symbolic::graph::{Graph, Scalar};
 use crate::symbolic::lower::Lowering;
+use crate::symbolic::turned::lower_turned;
 
 use dag::Dag;
 use position::Together;
@@ -109,6 +110,15 @@ pub fn compile_with(derivation: &Derivation, plain: Plain<'_>, fused: bool) -> R
         let mut tried: Vec<Rival> = Vec::new();
         for (candidate, (method, results)) in function.candidates.iter().enumerate() {
             let is_plain = plain.functions.contains(&function.kind);
+            let mut optimised = |graph: &Graph, roots: &[Scalar]| {
+                let mut dag = Dag::import(graph, roots, &symbols);
+                dag.symbol_names.clone_from(&symbol_names);
+                if !is_plain {
+                    sound &= simplify(&mut dag);
+                }
+                dag
+            };
+            let mut turned: Option<Dag> = None;
             let mut import = |list: &[Scalar]| {
                 let mut lowering = Lowering::new(&derivation.graph);
                 let roots = lowering.run(list);
@@ -116,12 +126,13 @@ pub fn compile_with(derivation: &Derivation, plain: Plain<'_>, fused: bool) -> R
                     return Err(Refusal::TooLarge(Excess::Operations(function.kind, lowering.to.len())));
                 }
                 let before = lowering.to.cost(&roots);
-                let mut dag = Dag::import(&lowering.to, &roots, &symbols);
-                dag.symbol_names.clone_from(&symbol_names);
                 if !is_plain {
-                    sound &= simplify(&mut dag);
+                    let ways = derivation.turns.iter();
+                    let ways = ways.filter_map(|turn| lower_turned(&derivation.graph, list, turn));
+                    turned =
+                        ways.map(|(graph, roots)| optimised(&graph, &roots)).min_by_key(|dag| dag.cost().0.weight());
                 }
-                Ok((dag, before))
+                Ok((optimised(&lowering.to, &roots), before))
             };
             let apart = !is_plain && !results.apart.is_empty();
             if let Some(member) = &mut member {
@@ -133,6 +144,7 @@ pub fn compile_with(derivation: &Derivation, plain: Plain<'_>, fused: bool) -> R
                 Some(Member { ways, before, .. }) if !apart => (ways[candidate].clone(), before[candidate]),
                 _ => import(if apart { &results.apart } else { &results.list })?,
             };
+            let dag = turned.filter(|turned| turned.cost().0.weight() < dag.cost().0.weight()).unwrap_or(dag);
             let cost = dag.cost().0;
             tried.push(Rival { method, cost });
             let weight = match &derivation.limbs {

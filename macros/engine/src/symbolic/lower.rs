@@ -11,7 +11,8 @@ use crate::invariant::fault::OrFault;
 use crate::invariant::injection::{Break, broken};
 
 use super::graph::{
-    AnyNode, BlockId, BlockKind, Graph, Name, PlaceMap, Rotation, RotationNode, Scalar, ScalarNode, Vector, VectorNode,
+    AnyNode, BlockId, BlockKind, Graph, Name, PlaceMap, Rotation, RotationNode, Scalar, ScalarNode, SymbolId, Vector,
+    VectorNode,
 };
 use super::sparse_factors::{Purpose, SparseFactors, expressions};
 use crate::contracts::call::Call;
@@ -28,7 +29,6 @@ pub struct Lowering<'g> {
     vectors: PlaceMap<[Scalar; 3]>,
     matrices: PlaceMap<[[Scalar; 3]; 3]>,
     blocks: HashMap<BlockId, Vec<Scalar>>,
-    /// By their matrices.
     /// By matrix, and whether its solutions have to be no numbers where it is singular.
     factors: HashMap<(bool, Box<[Scalar]>), SparseFactors>,
 }
@@ -36,7 +36,11 @@ pub struct Lowering<'g> {
 impl<'g> Lowering<'g> {
     /// `to` must have the symbols of `from`, made in the same order.
     pub fn new(from: &'g Graph) -> Self {
-        let to = from.empty_copy();
+        Lowering::onto(from, from.empty_copy())
+    }
+
+    /// Into a graph that has some expressions already: what has their values is found.
+    pub fn onto(from: &'g Graph, to: Graph) -> Self {
         Lowering {
             from,
             to,
@@ -264,7 +268,7 @@ impl Graph {
         copy.circles.clone_from(&self.circles);
         copy.radicands.clone_from(&self.radicands);
         for &s in &self.symbols {
-            let id = super::graph::SymbolId(copy.symbols.len());
+            let id = SymbolId(copy.symbols.len());
             let handle = copy.insert_scalar(ScalarNode::Symbol(id), self.prints[s.index()]);
             copy.symbols.push(handle);
         }

@@ -35,6 +35,7 @@ pub mod substitute;
 mod transplant;
 pub mod triangular_form;
 mod trigonometry;
+pub mod turned;
 mod vector;
 pub mod walk;
 pub mod write;

@@ -366,13 +366,29 @@ impl Graph {
         if let Some(folded) = self.fold_call(call, &arguments) {
             return folded.flip_if(sign);
         }
-        let prints: Vec<Print> = arguments.iter().map(|&a| self.print(a)).collect();
-        let print = Print::opaque(0xCA_0000 + call.tag(), &prints);
+        let print = self.call_print(call, &arguments);
         let found = match self.find(print) {
             Some(found) => found,
             None => self.insert_scalar(ScalarNode::Call(call, arguments.into()), print),
         };
         found.flip_if(sign)
+    }
+
+    /// What tells a function's value: nothing of how nodes came about, so that equal values have equal prints in all graphs of a model.
+    fn call_print(&self, call: Call, arguments: &[Scalar]) -> Print {
+        let mut prints: Vec<Print> = arguments.iter().map(|&a| self.print(a)).collect();
+        let mut odd = false;
+        match (call, &mut prints[..]) {
+            (Call::Abs | Call::Cosh, [x]) => *x = x.canonical(),
+            (Call::Tan | Call::Atan | Call::Asin | Call::Sinh | Call::Tanh | Call::Signum, [x]) => {
+                odd = *x != x.canonical();
+                *x = x.canonical();
+            }
+            (Call::Min | Call::Max | Call::And | Call::Or | Call::Equal, list) => list.sort_unstable(),
+            _ => {}
+        }
+        let print = Print::opaque(0xCA_0000 + call.tag(), &prints);
+        if odd { print.neg() } else { print }
     }
 
     /// A function of literals is a literal; a choice by a condition of literals is made.

@@ -118,6 +118,7 @@ fn case(k: usize) -> (Model, Compiled, f64) {
         inertia: Default::default(),
         witnesses: Vec::new(),
         limbs: None,
+        turns: Vec::new(),
     })
     .unwrap();
     assert!(compiled.sound);

@@ -415,6 +415,7 @@ fn a_leg_costs_what_it_should() {
                 inertia: Default::default(),
                 witnesses: Vec::new(),
                 limbs: None,
+                turns: Vec::new(),
             };
             let compiled = multibody_engine::optimize::compile(&derivation).expect("compiled");
             let cost = compiled.functions[0].after;

@@ -20,6 +20,7 @@ mod expressions;
 mod forces;
 mod formulations;
 mod groups;
+mod headings;
 mod integrability;
 #[path = "../common/interpreter.rs"]
 mod interpreter;

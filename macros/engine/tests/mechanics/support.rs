@@ -23,7 +23,7 @@ pub(crate) struct Case {
 /// Values of all symbols.
 #[derive(Clone)]
 pub(crate) struct Point {
-    values: HashMap<Symbol, f64>,
+    pub(crate) values: HashMap<Symbol, f64>,
 }
 
 /// Derives the body of `mod m { .. }`, preceded by `parts`.

@@ -139,6 +139,7 @@ fn case(seed: u64) -> Case {
         inertia: Default::default(),
         witnesses: Vec::new(),
         limbs: None,
+        turns: Vec::new(),
     };
     let point = (0..count).map(|k| if k < SYMBOLS { rng.real(-1.5, 1.5) } else { f64::NAN }).collect();
     Case { derivation, point }

@@ -153,6 +153,7 @@ fn derivation(
         inertia: Default::default(),
         witnesses: Vec::new(),
         limbs: None,
+        turns: Vec::new(),
     }
 }
 

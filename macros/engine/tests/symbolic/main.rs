@@ -14,4 +14,5 @@ mod signs;
 mod sparse_factors;
 mod structured;
 mod substitution;
+mod turned;
 mod vectors;

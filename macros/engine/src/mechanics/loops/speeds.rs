@@ -61,9 +61,12 @@ impl Equations<'_> {
             second.push(-self.g.substitute(&[acceleration], &unaccelerated)[0]);
         }
         if !unknowns.is_empty() {
-            let solve = if self.scene.way.for_readers { Self::solve_for_readers } else { Self::eliminate_strictly };
-            let [first, second] = self.solve_rates(unknowns.len(), &matrix, [&first, &second], solve);
-            all.add(&unknowns, &first, &second);
+            let readable = self.scene.way.for_readers;
+            let turned = if readable { Vec::new() } else { self.along_headings(&unknowns, &mut matrix) };
+            let solve = if readable { Self::solve_for_readers } else { Self::eliminate_strictly };
+            let mut found = self.solve_rates(unknowns.len(), &matrix, [&first, &second], solve);
+            found.iter_mut().for_each(|values| self.turn_back(&turned, values));
+            all.add(&unknowns, &found[0], &found[1]);
         }
         // One margin for all of them.
         reduction.matrices.push(beside(&volumes, &matrix, unknowns.len()));
