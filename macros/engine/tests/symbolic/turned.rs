@@ -27,7 +27,7 @@ impl Plane {
     }
 
     /// (x, y) from axes that head along to those of the world.
-    fn to_world(&mut self, [x, y]: [Scalar; 2]) -> [Scalar; 2] {
+    fn in_world(&mut self, [x, y]: [Scalar; 2]) -> [Scalar; 2] {
         let (c, s) = (self.g.cos(self.angle), self.g.sin(self.angle));
         let terms = [[self.g.mul(c, x), -self.g.mul(s, y)], [self.g.mul(s, x), self.g.mul(c, y)]];
         terms.map(|terms| self.g.sum(&terms))
@@ -57,7 +57,7 @@ impl Plane {
 fn what_doesn_t_turn() {
     let mut p = plane();
     let one = [Scalar::ONE, Scalar::ZERO];
-    let ahead = p.to_world(one);
+    let ahead = p.in_world(one);
     let along: Vec<Scalar> = ahead.iter().zip(p.velocity).map(|(&n, v)| p.g.mul(n, v)).collect();
     let along = p.g.sum(&along);
     let size = p.g.call(Call::Abs, &[along]);
@@ -79,9 +79,9 @@ fn vectors_are_turned_last() {
     let mut p = plane();
     let (number, velocity) = (p.number, p.velocity);
     let heavy = p.g.call(Call::Exp, &[number]);
-    let first = p.to_world([heavy, number]);
+    let first = p.in_world([heavy, number]);
     let sum = p.g.add(heavy, number);
-    let second = p.to_world([sum, Scalar::ONE]);
+    let second = p.in_world([sum, Scalar::ONE]);
     let scaled = velocity.map(|v| p.g.mul(v, heavy));
     let roots = [second[1], first[0], scaled[1], first[1], number, second[0], scaled[0]];
     let found = p.turned(&roots).expect("vectors");
@@ -93,7 +93,7 @@ fn vectors_are_turned_last() {
 fn a_wall_stays() {
     let mut p = plane();
     let (number, velocity) = (p.number, p.velocity);
-    let ahead = p.to_world([number, Scalar::ONE]);
+    let ahead = p.in_world([number, Scalar::ONE]);
     let wall = p.g.call(Call::Max, &[velocity[0], ahead[0]]);
     assert_eq!(p.turned(&[wall]), None);
     let [x, y] = ahead;
