@@ -122,9 +122,9 @@ impl Equations<'_> {
         found
     }
 
-    /// Unknowns in the world's axes.
+    /// Unknowns in the world's axes: v = R1 R2 w, where R1 was turned to first.
     pub(super) fn turn_back(&mut self, turned: &[Turned], unknowns: &mut [Scalar]) {
-        for &Turned { columns: [a, b], point: [cos, sin] } in turned {
+        for &Turned { columns: [a, b], point: [cos, sin] } in turned.iter().rev() {
             let terms = [[(cos, unknowns[a]), (-sin, unknowns[b])], [(sin, unknowns[a]), (cos, unknowns[b])]];
             [unknowns[a], unknowns[b]] = terms.map(|terms| {
                 let products = terms.map(|(factor, unknown)| self.g.mul(factor, unknown));

@@ -129,6 +129,7 @@ pub fn compile_with(derivation: &Derivation, plain: Plain<'_>, fused: bool) -> R
                 if !is_plain {
                     let ways = derivation.turns.iter();
                     let ways = ways.filter_map(|turn| lower_turned(&derivation.graph, list, turn));
+                    let ways = ways.filter(|(graph, _)| graph.len() <= MOST_OPERATIONS);
                     turned =
                         ways.map(|(graph, roots)| optimised(&graph, &roots)).min_by_key(|dag| dag.cost().0.weight());
                 }

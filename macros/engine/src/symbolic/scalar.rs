@@ -374,7 +374,8 @@ impl Graph {
         found.flip_if(sign)
     }
 
-    /// What tells a function's value: nothing of how nodes came about, so that equal values have equal prints in all graphs of a model.
+    /// What tells a function's value: nothing of how its arguments' nodes came about, so that equal values have equal prints in all
+    /// graphs of a model.
     fn call_print(&self, call: Call, arguments: &[Scalar]) -> Print {
         let mut prints: Vec<Print> = arguments.iter().map(|&a| self.print(a)).collect();
         let mut odd = false;

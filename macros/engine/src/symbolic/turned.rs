@@ -12,7 +12,7 @@
 use std::collections::HashMap;
 
 use super::fingerprint::Print;
-use super::graph::{Graph, Scalar, SymbolId};
+use super::graph::{AnyNode, Graph, Scalar, SymbolId};
 use super::lower::Lowering;
 
 /// Everything that is carried turns by an angle.
@@ -27,7 +27,8 @@ pub struct Turn {
 /// These scalars lowered with the angle of the turn at zero; nothing where none of them gets rid of it.
 pub fn lower_turned(from: &Graph, roots: &[Scalar], turn: &Turn) -> Option<(Graph, Vec<Scalar>)> {
     let angle = from.symbol_handle(turn.angle)?;
-    let turning: Vec<bool> = roots.iter().map(|&root| from.depends_on(root, &[angle])).collect();
+    let depends = from.depending(&from.reachable(roots), [angle].into_iter());
+    let turning: Vec<bool> = roots.iter().map(|root| depends.has(AnyNode::Scalar(root.index()))).collect();
     if !turning.contains(&true) {
         return None;
     }
@@ -61,7 +62,12 @@ pub fn lower_turned(from: &Graph, roots: &[Scalar], turn: &Turn) -> Option<(Grap
     let mut rest = lowering.run(&rest).into_iter();
     let all: Option<Vec<Scalar>> =
         found.iter().map(|found| if found.is_some() { turned.next() } else { rest.next() }).collect();
-    Some((lowering.to, all?))
+    let (to, all) = (lowering.to, all?);
+    // Components that cancel in a sum may have brought others in, which are no arguments of the function.
+    let components = |g: &Graph| -> Vec<Scalar> { turn.vectors.iter().flatten().map(|id| g.symbols[id.0]).collect() };
+    let (before, now) = (from.read_by(roots, &components(from)), to.read_by(&all, &components(&to)));
+    let same = before.iter().zip(now).all(|(&before, now)| before || !now);
+    (same && !ahead.is_full() && !to.is_full()).then_some((to, all))
 }
 
 /// What symbols stand for in axes that head along: the angle is zero, and R^T takes vectors there.

@@ -1,6 +1,7 @@
 //! Motions on planes: functions in axes that head along have the values of those in the axes of the world.
 
 use multibody_engine::contracts::function::FunctionKind;
+use multibody_engine::contracts::symbol::Symbol;
 use multibody_engine::symbolic::evaluate::{Evaluator, Real};
 use multibody_engine::symbolic::graph::SymbolId;
 use multibody_engine::symbolic::turned::lower_turned;
@@ -106,4 +107,40 @@ fn half_a_vector() {
         "world {{ gravity: 0.0 * Z }} {CAR} formulation {{ constraints: Reduced, independent: [x, steer] }} emit forward_dynamics, mass_matrix;"
     )));
     assert!(found.iter().all(|found| found.0 != FunctionKind::ForwardDynamics), "{found:?}");
+}
+
+/// Two hinges on one slide, about axes that don't commute: columns that were turned twice are turned back in the other order.
+#[test]
+fn two_hinges_on_three_slides() {
+    let case = case(
+        "world { gravity: 0.0 * Z }
+         body p { mass: 0.0 } body q { mass: 0.0 } body carrier { mass: 1.0 }
+         body wheel { mass: 1.0, com: [0.1, 0.2, 0.0], inertia: diag(1.0, 1.2, 1.4) }
+         body rotor { mass: 1.0, com: [0.0, 0.2, 0.1], inertia: diag(1.0, 1.2, 1.4) }
+         body weight { mass: 1.0 }
+         joint x: Prismatic { parent: ground, child: p, axis: X }
+         joint y: Prismatic { parent: p, child: q, axis: Y }
+         joint z: Prismatic { parent: q, child: carrier, axis: Z }
+         joint a: Revolute { parent: carrier, child: wheel, axis: Z }
+         joint b: Revolute { parent: carrier, child: rotor, axis: X }
+         joint c: Prismatic { parent: ground, child: weight, axis: X }
+         let along = x.rate * cos(a) + y.rate * sin(a);
+         let across = y.rate * cos(a) - x.rate * sin(a);
+         constraint one = along - 0.4 * c.rate;
+         constraint two = across * cos(b) + z.rate * sin(b) - 0.3 * c.rate;
+         constraint three = z.rate * cos(b) - across * sin(b) + 0.2 * c.rate;
+         formulation { constraints: Reduced, independent: [a, b, c] }
+         emit forward_dynamics;",
+    );
+    assert_eq!(case.derivation.turns.len(), 2);
+    for seed in 0..4 {
+        let point = case.random(seed);
+        let rates = case.eval(FunctionKind::PositionRates, &point);
+        let [x, y, z, _, _, c] = rates[..] else { panic!("{rates:?}") };
+        let angle = |name: &str| point.values[&Symbol::Position { joint: case.joint(name), component: 0 }];
+        let ((sa, ca), (sb, cb)) = (angle("a").sin_cos(), angle("b").sin_cos());
+        let (along, across) = (x * ca + y * sa, y * ca - x * sa);
+        let rows = [along - 0.4 * c, across * cb + z * sb - 0.3 * c, z * cb - across * sb + 0.2 * c];
+        close("rows", &rows, &[0.0; 3], 1e-12);
+    }
 }
