@@ -27,7 +27,7 @@ pub struct Turn {
 /// These scalars lowered with the angle of the turn at zero; nothing where none of them gets rid of it.
 pub fn lower_turned(from: &Graph, roots: &[Scalar], turn: &Turn) -> Option<(Graph, Vec<Scalar>)> {
     let angle = from.symbol_handle(turn.angle)?;
-    let depends = from.depending(&from.reachable(roots), [angle].into_iter());
+    let depends = from.depending(&from.reachable(roots), [angle]);
     let turning: Vec<bool> = roots.iter().map(|root| depends.has(AnyNode::Scalar(root.index()))).collect();
     if !turning.contains(&true) {
         return None;
