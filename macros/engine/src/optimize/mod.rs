@@ -103,6 +103,7 @@ pub fn compile_with(derivation: &Derivation, plain: Plain<'_>, fused: bool) -> R
     let mut sound = true;
     let mut chosen: Vec<Chosen> = Vec::new();
     let (symbols, symbol_names) = with_numbers(derivation);
+    let importer = Importer { derivation, symbols: &symbols, names: &symbol_names };
     let mut members: Vec<Member<'_>> = derivation.at.iter().map(|&kind| Member::new(derivation, kind)).collect();
     for function in &derivation.functions {
         let mut member = members.iter_mut().find(|member| member.derived.kind == function.kind);
@@ -110,30 +111,13 @@ pub fn compile_with(derivation: &Derivation, plain: Plain<'_>, fused: bool) -> R
         let mut tried: Vec<Rival> = Vec::new();
         for (candidate, (method, results)) in function.candidates.iter().enumerate() {
             let is_plain = plain.functions.contains(&function.kind);
-            let mut optimised = |graph: &Graph, roots: &[Scalar]| {
-                let mut dag = Dag::import(graph, roots, &symbols);
-                dag.symbol_names.clone_from(&symbol_names);
-                if !is_plain {
-                    sound &= simplify(&mut dag);
-                }
-                dag
-            };
-            let mut turned: Option<Dag> = None;
             let mut import = |list: &[Scalar]| {
-                let mut lowering = Lowering::new(&derivation.graph);
-                let roots = lowering.run(list);
-                if lowering.to.len() > MOST_OPERATIONS {
-                    return Err(Refusal::TooLarge(Excess::Operations(function.kind, lowering.to.len())));
+                let Imported { dag, before, size } = importer.import(list);
+                if size > MOST_OPERATIONS {
+                    return Err(Refusal::TooLarge(Excess::Operations(function.kind, size)));
                 }
-                let before = lowering.to.cost(&roots);
-                if !is_plain {
-                    let ways = derivation.turns.iter();
-                    let ways = ways.filter_map(|turn| lower_turned(&derivation.graph, list, turn));
-                    let ways = ways.filter(|(graph, _)| graph.len() <= MOST_OPERATIONS);
-                    turned =
-                        ways.map(|(graph, roots)| optimised(&graph, &roots)).min_by_key(|dag| dag.cost().0.weight());
-                }
-                Ok((optimised(&lowering.to, &roots), before))
+                let dag = if is_plain { dag } else { importer.optimised(dag, list, &mut sound) };
+                Ok((dag, before))
             };
             let apart = !is_plain && !results.apart.is_empty();
             if let Some(member) = &mut member {
@@ -145,7 +129,6 @@ pub fn compile_with(derivation: &Derivation, plain: Plain<'_>, fused: bool) -> R
                 Some(Member { ways, before, .. }) if !apart => (ways[candidate].clone(), before[candidate]),
                 _ => import(if apart { &results.apart } else { &results.list })?,
             };
-            let dag = turned.filter(|turned| turned.cost().0.weight() < dag.cost().0.weight()).unwrap_or(dag);
             let cost = dag.cost().0;
             tried.push(Rival { method, cost });
             let weight = match &derivation.limbs {
@@ -232,6 +215,50 @@ fn packed_weight(dag: &Dag, symbols: &[Symbol], limbs: &Limbs) -> u32 {
     packs::weight(&schedule::schedule_as(dag, &fields, &names, form))
 }
 
+/// From results as they were derived to DAGs.
+struct Importer<'a> {
+    derivation: &'a Derivation,
+    symbols: &'a [Symbol],
+    names: &'a [String],
+}
+
+/// Results as they were derived, what they cost, and of how many expressions they are.
+struct Imported {
+    dag: Dag,
+    before: Cost,
+    size: usize,
+}
+
+impl Importer<'_> {
+    fn dag(&self, graph: &Graph, roots: &[Scalar]) -> Dag {
+        let mut dag = Dag::import(graph, roots, self.symbols);
+        dag.symbol_names = self.names.to_vec();
+        dag
+    }
+
+    fn import(&self, list: &[Scalar]) -> Imported {
+        let mut lowering = Lowering::new(&self.derivation.graph);
+        let roots = lowering.run(list);
+        let graph = lowering.to;
+        Imported { dag: self.dag(&graph, &roots), before: graph.cost(&roots), size: graph.len() }
+    }
+
+    /// The same optimised, without a heading where that is cheaper.
+    fn optimised(&self, mut dag: Dag, list: &[Scalar], sound: &mut bool) -> Dag {
+        *sound &= simplify(&mut dag);
+        for turn in &self.derivation.turns {
+            let turned = lower_turned(&self.derivation.graph, list, turn);
+            let Some((graph, roots)) = turned.filter(|(graph, _)| graph.len() <= MOST_OPERATIONS) else { continue };
+            let mut turned = self.dag(&graph, &roots);
+            *sound &= simplify(&mut turned);
+            if turned.cost().0.weight() < dag.cost().0.weight() {
+                dag = turned;
+            }
+        }
+        dag
+    }
+}
+
 /// A function that is asked for at a position, with all its ways.
 struct Member<'d> {
     derived: &'d Derived,
@@ -251,25 +278,18 @@ impl<'d> Member<'d> {
 
 /// All functions that are asked for at a position in one DAG; as they were derived if `plain`.
 fn together(derivation: &Derivation, members: &[Member<'_>], plain: bool, sound: &mut bool) -> Together {
-    let import = |ways: &[usize]| {
+    let importer = Importer { derivation, symbols: &derivation.symbols, names: &derivation.symbol_names };
+    let all = |ways: &[usize]| -> Vec<Scalar> {
         let each = members.iter().zip(ways).flat_map(|(member, &way)| &member.derived.candidates[way].1.list);
-        let roots: Vec<Scalar> = each.copied().collect();
-        let mut lowering = Lowering::new(&derivation.graph);
-        let roots = lowering.run(&roots);
-        let small = lowering.to.len() <= MOST_OPERATIONS;
-        let mut dag = Dag::import(&lowering.to, &roots, &derivation.symbols);
-        dag.symbol_names.clone_from(&derivation.symbol_names);
-        (dag, small)
+        each.copied().collect()
     };
     if !plain {
         let functions: Vec<position::Ways> = members.iter().map(|member| member.ways.clone()).collect();
         let found = position::choose(&functions, &derivation.symbols, |ways| {
-            let (mut dag, small) = import(ways);
+            let list = all(ways);
+            let Imported { dag, size, .. } = importer.import(&list);
             // What is too large for the passes has the work of each function shared as it is.
-            small.then(|| {
-                *sound &= simplify(&mut dag);
-                dag
-            })
+            (size <= MOST_OPERATIONS).then(|| importer.optimised(dag, &list, sound))
         });
         if let Some(found) = found {
             return found;
@@ -277,7 +297,7 @@ fn together(derivation: &Derivation, members: &[Member<'_>], plain: bool, sound:
         *sound = false;
     }
     let first = vec![0; members.len()];
-    let (dag, _) = import(&first);
+    let Imported { dag, .. } = importer.import(&all(&first));
     Together::plain(first, dag, members.iter().map(|member| member.derived.candidates[0].1.list.len()))
 }
 
