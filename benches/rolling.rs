@@ -4,62 +4,23 @@
 //! sweep, and each beginning with what the one before gave, as in an integrator. The unit is one `sin_cos` of arguments uniform in +-pi,
 //! measured in the same turns; all are least times of many turns.
 
+#[path = "../runtime/tests/rolling/bicycle.rs"]
+#[macro_use]
+mod bicycle;
+
 use std::hint::black_box;
 use std::time::Instant;
 
 use multibody::multibody;
 
-/// x ahead, y to the right, z down; parameters are those of a benchmark (Meijaard, Papadopoulos, Ruina, Schwab 2007).
-macro_rules! bicycle {
-    ($name:ident, $constraints:ident $($independent:tt)*) => {
-        multibody! {
-            mod $name {
-                const BASE = 1.02;
-                const TRAIL = 0.08;
-                const TILT = PI / 10;
-                const REAR = 0.3;
-                const FRONT = 0.35;
-                world { gravity: 9.81 * Z }
-                body ahead { mass: 0 }
-                body aside { mass: 0 }
-                body below { mass: 0 }
-                body headed { mass: 0 }
-                body leaning { mass: 0 }
-                body frame { mass: 85, com: [0.3, 0, REAR - 0.9], inertia: inertia(9.2, 11, 2.8, 0, 2.4, 0) }
-                body rear { mass: 2, inertia: diag(0.0603, 0.12, 0.0603) }
-                body fork {
-                    mass: 4,
-                    com: [0.9 - BASE - TRAIL, 0, -0.7],
-                    inertia: inertia(0.05892, 0.06, 0.00708, 0, -0.00756, 0)
-                }
-                body front { mass: 3, inertia: diag(0.1405, 0.28, 0.1405) }
-                joint x: Prismatic { parent: ground, child: ahead, axis: X }
-                joint y: Prismatic { parent: ahead, child: aside, axis: Y }
-                joint z: Prismatic { parent: aside, child: below, axis: Z }
-                joint yaw: Revolute { parent: below, child: headed, axis: Z }
-                joint roll: Revolute { parent: headed, child: leaning, axis: X }
-                joint pitch: Revolute { parent: leaning, child: frame, axis: Y }
-                joint spin_rear: Revolute { parent: frame, child: rear, axis: Y }
-                joint steer: Revolute {
-                    parent: frame.at([BASE + TRAIL, 0, REAR]),
-                    child: fork,
-                    axis: [sin(TILT), 0, cos(TILT)]
-                }
-                joint spin_front: Revolute { parent: fork.at([-TRAIL, 0, -FRONT]), child: front, axis: Y }
-                input push;
-                force on_roll: Effort { joint: roll, value: push }
-                let road = ground.rotated(X, PI);
-                constraint rear_wheel: Rolling { wheel: rear, axis: Y, radius: REAR, on: road }
-                constraint front_wheel: Rolling { wheel: front, axis: Y, radius: FRONT, on: road }
-                formulation { constraints: $constraints $($independent)* }
-                emit forward_dynamics;
-            }
-        }
-    };
-}
-
-bicycle!(reduced, Reduced, independent: [roll, steer, spin_rear]);
-bicycle!(multipliers, Multipliers);
+bicycle!(reduced, {
+    formulation { constraints: Reduced, independent: [roll, steer, spin_rear] }
+    emit forward_dynamics;
+});
+bicycle!(multipliers, {
+    formulation { constraints: Multipliers }
+    emit forward_dynamics;
+});
 
 const STATES: usize = 64;
 const TURNS: usize = 4000;
@@ -96,22 +57,34 @@ fn main() {
         state
     });
     let (few, many) = (reduced::Model::<f64>::default(), multipliers::Model::<f64>::default());
-    let (push, other) = (reduced::Input { push: 1.0 }, multipliers::Input { push: 1.0 });
+    let (few_input, many_input) = (reduced::Input::default(), multipliers::Input::default());
     let mut least = [f64::INFINITY; 4];
     for _ in 0..TURNS {
-        let mut chained = states[0].clone();
+        let mut chained = states[0];
         let times = [
-            time(|| angles.iter().for_each(|&angle| drop(black_box(black_box(angle).sin_cos())))),
-            time(|| states.iter().for_each(|x| drop(black_box(few.forward_dynamics(0.0, black_box(x), &push))))),
+            time(|| {
+                for &angle in &angles {
+                    black_box(black_box(angle).sin_cos());
+                }
+            }),
+            time(|| {
+                for state in &states {
+                    black_box(few.forward_dynamics(0.0, black_box(state), &few_input));
+                }
+            }),
             time(|| {
                 for _ in 0..STATES {
-                    let rate = few.forward_dynamics(0.0, &chained, &push);
+                    let rate = few.forward_dynamics(0.0, &chained, &few_input);
                     chained.v.roll -= 1e-9 * rate.v.roll;
                     chained.v.steer -= 1e-9 * rate.v.steer;
                 }
                 black_box(&chained);
             }),
-            time(|| all.iter().for_each(|x| drop(black_box(many.forward_dynamics(0.0, black_box(x), &other))))),
+            time(|| {
+                for state in &all {
+                    black_box(many.forward_dynamics(0.0, black_box(state), &many_input));
+                }
+            }),
         ];
         least.iter_mut().zip(times).for_each(|(least, time)| *least = least.min(time));
     }

@@ -1,6 +1,8 @@
 //! Wheels, blades and spheres: constraints of velocities, and contacts that give way.
 
 #[macro_use]
+mod bicycle;
+#[macro_use]
 mod speeds;
 
 mod beside;

@@ -14,7 +14,7 @@ use std::rc::Rc;
 use crate::dynamics::tree::Motion;
 use crate::model::types::Coordinate;
 use crate::symbolic::graph::{Rotation, Scalar, SymbolId};
-use crate::symbolic::rotations;
+use crate::symbolic::rotations::{self, turn_pair};
 use crate::symbolic::turned::Turn;
 
 use super::equations::Equations;
@@ -69,7 +69,9 @@ impl Equations<'_> {
             let [angle, ..] = self.coordinate_symbols(coordinate);
             found.push(Heading { angle, slides });
         }
-        found.truncate(if found.len() > MOST { 0 } else { MOST });
+        if found.len() > MOST {
+            found.clear();
+        }
         found
     }
 
@@ -101,15 +103,11 @@ impl Equations<'_> {
             let place = |slide: Coordinate| unknowns.iter().position(|&unknown| unknown == slide);
             let ([Some(a), Some(b)], Some(angle_id)) = (slides.map(place), self.g.symbol_id(angle)) else { continue };
             let point = [self.g.cos(angle), self.g.sin(angle)];
-            let [cos, sin] = point;
+            let back = [point[0], -point[1]];
             let before: Vec<Scalar> = matrix.chunks(size).flat_map(|row| [row[a], row[b]]).collect();
             let mut turned = Vec::with_capacity(before.len());
             for pair in before.chunks(2) {
-                let terms = [[(cos, pair[0]), (sin, pair[1])], [(cos, pair[1]), (-sin, pair[0])]];
-                turned.extend(terms.map(|terms| {
-                    let products = terms.map(|(factor, entry)| self.g.mul(factor, entry));
-                    self.g.sum(&products)
-                }));
+                turned.extend(turn_pair(&mut self.g, back, [pair[0], pair[1]]));
             }
             let at_zero = self.g.substitute(&turned, &HashMap::from([(angle_id, Scalar::ZERO)]));
             if at_zero == turned && self.g.read_by(&before, &[angle])[0] {
@@ -124,12 +122,8 @@ impl Equations<'_> {
 
     /// Unknowns in the world's axes: v = R1 R2 w, where R1 was turned to first.
     pub(super) fn turn_back(&mut self, turned: &[Turned], unknowns: &mut [Scalar]) {
-        for &Turned { columns: [a, b], point: [cos, sin] } in turned.iter().rev() {
-            let terms = [[(cos, unknowns[a]), (-sin, unknowns[b])], [(sin, unknowns[a]), (cos, unknowns[b])]];
-            [unknowns[a], unknowns[b]] = terms.map(|terms| {
-                let products = terms.map(|(factor, unknown)| self.g.mul(factor, unknown));
-                self.g.sum(&products)
-            });
+        for &Turned { columns: [a, b], point } in turned.iter().rev() {
+            [unknowns[a], unknowns[b]] = turn_pair(&mut self.g, point, [unknowns[a], unknowns[b]]);
         }
     }
 }

@@ -22,6 +22,12 @@ pub(crate) fn rows(g: &mut Graph, r: Rotation) -> [[Scalar; 3]; 3] {
     if r.is_transposed() { transpose(&m) } else { m }
 }
 
+/// Components of a vector of a plane after a turn by the angle with this cosine and sine; with minus the sine, before it.
+pub(crate) fn turn_pair(g: &mut Graph, [cos, sin]: [Scalar; 2], [a, b]: [Scalar; 2]) -> [Scalar; 2] {
+    let terms = [[g.mul(cos, a), -g.mul(sin, b)], [g.mul(sin, a), g.mul(cos, b)]];
+    terms.map(|terms| g.sum(&terms))
+}
+
 pub(crate) fn transpose(m: &[[Scalar; 3]; 3]) -> [[Scalar; 3]; 3] {
     std::array::from_fn(|i| std::array::from_fn(|j| m[j][i]))
 }

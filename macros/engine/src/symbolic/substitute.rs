@@ -13,7 +13,8 @@ use std::collections::HashMap;
 use crate::invariant::fault::{OrFault, raise};
 
 use super::graph::{
-    AnyNode, Block, BlockId, Graph, PlaceMap, Rotation, RotationNode, Scalar, ScalarNode, SymbolId, Vector, VectorNode,
+    AnyNode, Block, BlockId, Graph, Name, PlaceMap, Rotation, RotationNode, Scalar, ScalarNode, SymbolId, Vector,
+    VectorNode,
 };
 
 use super::walk::Marks;
@@ -40,6 +41,8 @@ pub(super) struct Images {
     vectors: PlaceMap<Vector>,
     rotations: PlaceMap<Rotation>,
     blocks: HashMap<BlockId, Vec<Scalar>>,
+    /// Behind the names of what has another value than what it is the image of.
+    word: Option<&'static str>,
 }
 
 /// One replacement of symbols, shared by all that is asked for.
@@ -100,6 +103,10 @@ impl Substitution {
 }
 
 impl Images {
+    pub(super) fn with_word(word: Option<&'static str>) -> Images {
+        Images { word, ..Images::default() }
+    }
+
     pub(super) fn has(&self, node: AnyNode) -> bool {
         match node {
             AnyNode::Scalar(i) => self.scalars.contains_key(&i),
@@ -123,18 +130,20 @@ impl Images {
                     ScalarNode::Output(id, _) if !self.blocks.contains_key(&id) => Some(from.block(id).clone()),
                     _ => None,
                 };
+                let print = from.print(s);
                 let made = self.scalar(g, s, node, block);
                 if let Some(name) = name {
-                    g.name_like(made, &name);
+                    g.name_like(made, &self.named(name, g.print(made) == print));
                 }
                 self.scalars.insert(i, made);
             }
             AnyNode::Vector(i) => {
                 let v = Vector::new(i, false);
                 let (node, name) = (from.vector_node(v).clone(), from.vector_name_of(v).cloned());
+                let print = from.vector_print(v);
                 let made = self.vector(g, node);
                 if let Some(name) = name {
-                    g.name_vector_like(made, &name);
+                    g.name_vector_like(made, &self.named(name, g.vector_print(made) == print));
                 }
                 self.vectors.insert(i, made);
             }
@@ -143,6 +152,13 @@ impl Images {
                 let made = self.rotation(g, node);
                 self.rotations.insert(i, made);
             }
+        }
+    }
+
+    fn named(&self, name: Name, same: bool) -> Name {
+        match self.word.filter(|_| !same) {
+            Some(word) => Name { text: format!("{}_{word}", name.text), ..name },
+            None => name,
         }
     }
 

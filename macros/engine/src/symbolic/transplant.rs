@@ -10,9 +10,15 @@ use super::graph::{AnyNode, BlockKind, Graph, Scalar, ScalarNode, SymbolId};
 use super::substitute::Images;
 
 impl Graph {
-    /// Expressions of another graph.
-    pub fn transplant(&mut self, from: &Graph, roots: &[Scalar], put: &HashMap<SymbolId, Scalar>) -> Vec<Scalar> {
-        let mut images = Images::default();
+    /// Expressions of another graph. A word is put behind the names of what comes out as another value, if there is one.
+    pub fn transplant(
+        &mut self,
+        from: &Graph,
+        roots: &[Scalar],
+        put: &HashMap<SymbolId, Scalar>,
+        word: Option<&'static str>,
+    ) -> Vec<Scalar> {
+        let mut images = Images::with_word(word);
         for (&id, &value) in put {
             images.scalars.extend(from.symbol_handle(id).map(|symbol| (symbol.index(), value)));
         }

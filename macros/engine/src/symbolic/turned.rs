@@ -14,6 +14,7 @@ use std::collections::HashMap;
 use super::fingerprint::Print;
 use super::graph::{AnyNode, Graph, Scalar, SymbolId};
 use super::lower::Lowering;
+use super::rotations::turn_pair;
 
 /// Everything that is carried turns by an angle.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -37,7 +38,7 @@ pub fn lower_turned(from: &Graph, roots: &[Scalar], turn: &Turn) -> Option<(Grap
     let (cos, sin) = (ahead.cos(angle), ahead.sin(angle));
     let put = in_axes_ahead(&mut ahead, turn, [cos, sin]);
     // As it was derived: there a linear system is solved by nobody yet, and is told by its coefficients.
-    let at_zero = ahead.transplant(from, roots, &put);
+    let at_zero = ahead.transplant(from, roots, &put, Some("ahead"));
     let prints = |graph: &Graph, list: &[Scalar]| list.iter().map(|&root| graph.print(root)).collect::<Vec<Print>>();
     let (zero, plain) = (prints(&ahead, &at_zero), prints(from, roots));
     // What doesn't read the angle stays as it is.
@@ -45,10 +46,8 @@ pub fn lower_turned(from: &Graph, roots: &[Scalar], turn: &Turn) -> Option<(Grap
     let mut found: Vec<Option<Scalar>> =
         (0..roots.len()).map(|k| (turning[k] && zero[k] == plain[k]).then_some(at_zero[k])).collect();
     for [first, second] in vectors(&open, &zero, &plain, [cos, sin].map(|s| ahead.print(s))) {
-        let (a, b) = (at_zero[first], at_zero[second]);
-        let terms = [[ahead.mul(cos, a), -ahead.mul(sin, b)], [ahead.mul(sin, a), ahead.mul(cos, b)]];
-        let [a, b] = terms.map(|terms| ahead.sum(&terms));
-        (found[first], found[second]) = (Some(a), Some(b));
+        let turned = turn_pair(&mut ahead, [cos, sin], [at_zero[first], at_zero[second]]);
+        [found[first], found[second]] = turned.map(Some);
     }
     if found.iter().all(Option::is_none) {
         return None;
@@ -76,8 +75,7 @@ fn in_axes_ahead(g: &mut Graph, turn: &Turn, [cos, sin]: [Scalar; 2]) -> HashMap
     put.insert(turn.angle, Scalar::ZERO);
     for pair in &turn.vectors {
         let [a, b] = pair.map(|id| g.symbols[id.0]);
-        let terms = [[g.mul(cos, a), g.mul(sin, b)], [g.mul(cos, b), -g.mul(sin, a)]];
-        put.extend(pair.iter().copied().zip(terms.map(|terms| g.sum(&terms))));
+        put.extend(pair.iter().copied().zip(turn_pair(g, [cos, -sin], [a, b])));
     }
     put
 }

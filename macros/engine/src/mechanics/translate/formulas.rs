@@ -48,7 +48,7 @@ impl Equations<'_> {
                 (id, value.or_else(declared).or_fault("what a formula reads is given"))
             })
             .collect();
-        let scalars = self.g.transplant(&solved.graph, &solved.scalars, &put);
+        let scalars = self.g.transplant(&solved.graph, &solved.scalars, &put, None);
         self.shaped(&scalars, ty)
     }
 }
