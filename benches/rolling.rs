@@ -1,4 +1,4 @@
-//! Whipple's bicycle beside one `sin_cos` of the standard library, in one process: `cargo bench --bench rolling`.
+//! Whipple's bicycle, its 26 numbers parameters, beside one `sin_cos` of the standard library, in one process: `cargo bench --bench rolling`.
 //!
 //! A right-hand side is a call of `forward_dynamics` at one of many states in turn: states that don't depend on each other, as in a
 //! sweep, and each beginning with what the one before gave, as in an integrator. The unit is one `sin_cos` of arguments uniform in +-pi,

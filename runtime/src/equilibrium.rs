@@ -106,7 +106,7 @@ pub type Found<S, U> = Result<Equilibrium<<S as System>::State, U, <S as System>
 /// example.
 ///
 /// # Errors
-/// See [`EquilibriumError`]; one is given if any lane fails.
+/// See [`EquilibriumError`]; one is given if any lane fails, or if loops that hold by multipliers are open where accelerations vanish.
 pub fn equilibrium<S: Differentiable>(
     system: &S,
     t: S::Scalar,
@@ -115,17 +115,19 @@ pub fn equilibrium<S: Differentiable>(
     free: &DisplacementOf<S>,
 ) -> Found<S, ()> {
     let found = Search::run(system, &Held(input), &Open, t, &resting::<S>(guess), (), &at_rest::<S>(free))?;
-    standing(system, t, found)
+    standing(system, t, closed(system, t, input, found)?)
 }
 
 /// A steady motion near `guess` at the time `t` `[s]`: no accelerations and no rates of own states. What is free, of
 /// position, velocity, own states and inputs, is up to the caller; the rest stays as in the guess.
 ///
-/// Steady flight, a turning governor, the voltage for a speed: positions that go on changing, such as the angle of a shaft,
-/// are to be held.
+/// Steady flight, a turning governor, the voltage for a speed, a bicycle that goes round in circles: positions that go on changing, such
+/// as the angle of a shaft or the place of a vehicle, are to be held, and so are velocities that tell of others, where these are to
+/// stay. Accelerations are those of the model's velocities: a vehicle's are steady in a turn where they are its speeds, not the rates of
+/// its place, so constraints are to be solved (`constraints: Reduced`).
 ///
 /// # Errors
-/// See [`EquilibriumError`]; one is given if any lane fails.
+/// See [`EquilibriumError`]; one is given if any lane fails, or if what is free opens loops that hold by multipliers.
 pub fn trim<S: Differentiable>(
     system: &S,
     t: S::Scalar,
@@ -136,7 +138,23 @@ pub fn trim<S: Differentiable>(
 where
     S::Input: Tangent<S::Scalar>,
 {
-    Search::run(system, &Turned, &Open, t, guess, *input, free)
+    let found = Search::run(system, &Turned, &Open, t, guess, *input, free)?;
+    let input = found.input;
+    closed(system, t, &input, found)
+}
+
+/// What was found, if no loop is open there.
+fn closed<S: System, U>(
+    system: &S,
+    t: S::Scalar,
+    input: &S::Input,
+    found: Equilibrium<S::State, U, S::Scalar>,
+) -> Found<S, U> {
+    let opening = system.opening(t, &found.state, input);
+    if opening.is_open() {
+        return Err(EquilibriumError::Open { gap: opening.residual.greatest(), iterations: found.iterations });
+    }
+    Ok(found)
 }
 
 /// The same as [`equilibrium`] for a model with constraints: they are closed, too. Where one moves by itself, as a plane that turns below a

@@ -1,25 +1,46 @@
-//! Whipple's bicycle, for whoever wants it in some formulation.
+//! Whipple's bicycle, for whoever wants it in some formulation. All its numbers are parameters.
 
 /// Whipple's bicycle: x ahead, y to the right, z down; wheels that roll without slip on the plane z = 0.
 macro_rules! bicycle {
     ($name:ident, { $($more:tt)* }) => {
         multibody! {
             pub(crate) mod $name {
-                const W = 1.02;
-                const C = 0.08;
-                const TILT = PI / 10;
-                const REAR = 0.3;
-                const FRONT = 0.35;
-                world { gravity: 9.81 * Z }
+                param w = 1.02;
+                param c = 0.08;
+                param tilt = PI / 10;
+                param g = 9.81;
+                param r_rear = 0.3;
+                param r_front = 0.35;
+                param m_frame = 85;
+                param m_rear = 2;
+                param m_fork = 4;
+                param m_front = 3;
+                param x_frame = 0.3;
+                param z_frame = -0.9;
+                param x_fork = 0.9;
+                param z_fork = -0.7;
+                param ixx_b = 9.2;
+                param iyy_b = 11;
+                param izz_b = 2.8;
+                param ixz_b = 2.4;
+                param ixx_r = 0.0603;
+                param iyy_r = 0.12;
+                param ixx_h = 0.05892;
+                param iyy_h = 0.06;
+                param izz_h = 0.00708;
+                param ixz_h = -0.00756;
+                param ixx_f = 0.1405;
+                param iyy_f = 0.28;
+                world { gravity: g * Z }
                 body ahead { mass: 0 }
                 body aside { mass: 0 }
                 body below { mass: 0 }
                 body headed { mass: 0 }
                 body leaning { mass: 0 }
-                body frame { mass: 85, com: [0.3, 0, -0.9 + REAR], inertia: inertia(9.2, 11, 2.8, 0, 2.4, 0) }
-                body rear { mass: 2, inertia: diag(0.0603, 0.12, 0.0603) }
-                body fork { mass: 4, com: [0.9 - W - C, 0, -0.7], inertia: inertia(0.05892, 0.06, 0.00708, 0, -0.00756, 0) }
-                body front { mass: 3, inertia: diag(0.1405, 0.28, 0.1405) }
+                body frame { mass: m_frame, com: [x_frame, 0, z_frame + r_rear], inertia: inertia(ixx_b, iyy_b, izz_b, 0, ixz_b, 0) }
+                body rear { mass: m_rear, inertia: diag(ixx_r, iyy_r, ixx_r) }
+                body fork { mass: m_fork, com: [x_fork - w - c, 0, z_fork + r_front], inertia: inertia(ixx_h, iyy_h, izz_h, 0, ixz_h, 0) }
+                body front { mass: m_front, inertia: diag(ixx_f, iyy_f, ixx_f) }
                 joint x: Prismatic { parent: ground, child: ahead, axis: X }
                 joint y: Prismatic { parent: ahead, child: aside, axis: Y }
                 joint z: Prismatic { parent: aside, child: below, axis: Z }
@@ -27,8 +48,8 @@ macro_rules! bicycle {
                 joint roll: Revolute { parent: headed, child: leaning, axis: X }
                 joint pitch: Revolute { parent: leaning, child: frame, axis: Y }
                 joint spin_rear: Revolute { parent: frame, child: rear, axis: Y }
-                joint steer: Revolute { parent: frame.at([W + C, 0, REAR]), child: fork, axis: [sin(TILT), 0, cos(TILT)] }
-                joint spin_front: Revolute { parent: fork.at([-C, 0, -FRONT]), child: front, axis: Y }
+                joint steer: Revolute { parent: frame.at([w + c, 0, r_rear]), child: fork, axis: [sin(tilt), 0, cos(tilt)] }
+                joint spin_front: Revolute { parent: fork.at([-c, 0, -r_front]), child: front, axis: Y }
                 input lean;
                 input turn;
                 input pedal;
@@ -38,8 +59,8 @@ macro_rules! bicycle {
 
                 // The plane's z axis points to the side of the wheels.
                 let road = ground.rotated(X, PI);
-                constraint rear_tyre: Rolling { wheel: rear, axis: Y, radius: REAR, on: road }
-                constraint front_tyre: Rolling { wheel: front, axis: Y, radius: FRONT, on: road }
+                constraint rear_tyre: Rolling { wheel: rear, axis: Y, radius: r_rear, on: road }
+                constraint front_tyre: Rolling { wheel: front, axis: Y, radius: r_front, on: road }
                 output rear_force = rear_tyre.force;
                 output front_force = front_tyre.force;
                 output contacts = [rear_tyre.contact, front_tyre.contact];

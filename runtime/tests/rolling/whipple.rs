@@ -1,14 +1,17 @@
 //! Whipple's bicycle against data that were computed without any library of the kind: accelerations, forces of contact, a motion.
 //! Source: `tests/data/rolling`, after Meijaard, Papadopoulos, Ruina and Schwab, Proc. R. Soc. A 463 (2007) 1955-1982.
 
-use multibody::{Dop853, Integrator, Projection, System, WithProjection, multibody};
+use multibody::{
+    Dop853, EquilibriumError, Free, Integrator, Projection, System, Tangent, WithProjection, equilibrium, multibody,
+    trim,
+};
 use serde_json::Value;
 
 bicycle!(whipple, {
     formulation { constraints: Multipliers }
     emit forward_dynamics, derivatives, constraints;
 });
-// Three velocities, and the height and the pitch by Newton's method.
+// Three velocities, the height in closed form, and the pitch by an iteration.
 bicycle!(reduced, {
     output at = [x.rate, y.rate, z.rate, yaw.rate, roll.rate, pitch.rate, spin_rear.rate, steer.rate, spin_front.rate];
     output moved = [
@@ -133,11 +136,11 @@ fn a_motion() {
 
 /// The same state, in the velocities that are left.
 fn reduced_state(position: Position, rates: &Velocity) -> reduced::State {
-    let Position { x, y, z, yaw, roll, pitch, spin_rear, steer, spin_front } = position;
+    let Position { x, y, yaw, roll, pitch, spin_rear, steer, spin_front, .. } = position;
     reduced::State {
         q: reduced::Position { x, y, yaw, roll, spin_rear, steer, spin_front },
         v: reduced::Velocity { roll: rates.roll, spin_rear: rates.spin_rear, steer: rates.steer },
-        guess: reduced::Guess { z, pitch },
+        guess: reduced::Guess { pitch },
     }
 }
 
@@ -264,4 +267,71 @@ fn small_motions() {
     println!("rows {worst:.1e}, eigenvalues {worst_root:.1e}");
     assert_eq!(speeds, 21);
     assert!(worst < 1e-12 && worst_root < 1e-13, "{worst:e}, {worst_root:e}");
+}
+
+/// Round in circles: the lean and the moments at handlebar and pedals that hold a steer angle and a speed, found while the place, the
+/// heading and the wheels' angles run. The motion keeps them, on a circle for each contact; and the forces of both contacts are what
+/// Newton's second law asks of all masses on their circles.
+#[test]
+fn steady_turns() {
+    let model = reduced::Model::<f64>::default();
+    for (steer, speed, yaw) in [(0.1, 4.0, 0.3), (-0.25, 3.0, -2.0), (0.02, 7.0, 1.1), (0.6, 2.0, 5.0)] {
+        let mut guess = reduced::State::<f64>::default();
+        (guess.q.yaw, guess.q.steer, guess.v.spin_rear) = (yaw, steer, -speed / 0.3);
+        guess = model.accepted(0.0, &guess, &reduced::Input::default());
+        let mut free = Free {
+            position: reduced::Rates::<f64>::zero(),
+            velocity: reduced::Velocity::zero(),
+            states: (),
+            input: reduced::Input { lean: 0.0, turn: 1.0, pedal: 1.0 },
+        };
+        free.position.roll = 1.0;
+        let found = trim(&model, 0.0, &guess, &reduced::Input::default(), &free).unwrap();
+        let (start, input) = (found.state, found.input);
+        assert!((start.q.steer, start.v.spin_rear, start.v.roll) == (steer, -speed / 0.3, 0.0) && found.rank == 3.0);
+        // Leaning into the turn.
+        assert!(start.q.roll * steer > 0.0 && start.q.roll.abs() < 0.8, "{}", start.q.roll);
+        let outputs = model.outputs(0.0, &start, &input);
+        let yaw_rate = outputs.at[3];
+        let (mut state, mut t) = (start, 0.0);
+        let integrator = Integrator::adaptive(Dop853, 1e-13, 1e-13);
+        while t < 2.0 {
+            state = integrator.integrate(&model, t, t + 0.25, &state, &input, |_, _| ()).unwrap().0;
+            t += 0.25;
+            let error = (state.q.roll - start.q.roll).abs().max((state.q.steer - steer).abs());
+            assert!(error < 1e-8, "{steer}: {error:e} off after {t} s");
+            // The centre of the circle stays: it is a quarter turn to the side of the way.
+            let centre = |state: &reduced::State| {
+                let rates = model.outputs(0.0, state, &input).at;
+                [state.q.x - rates[1] / yaw_rate, state.q.y + rates[0] / yaw_rate]
+            };
+            let ([ax, ay], [bx, by]) = (centre(&start), centre(&state));
+            let moved = (ax - bx).hypot(ay - by) * yaw_rate.abs() / speed;
+            assert!(moved < 1e-7, "{steer}: the centre moves by {moved:e} of the radius");
+        }
+        // What both wheels push upwards carries the weight.
+        let upwards: f64 = outputs.rear_force[2] + outputs.front_force[2];
+        assert!((upwards.abs() - 94.0 * 9.81).abs() < 1e-8, "{upwards}");
+    }
+}
+
+/// A model whose loops hold by multipliers moves along them alone: what is free here would open them, and that is told.
+#[test]
+fn nothing_is_found_with_open_loops() {
+    let model = Model::<f64>::default();
+    let mut guess = State::<f64>::default();
+    guess.q.roll = 0.2;
+    let mut ones = Velocity::zero().map(&mut |_: f64| 1.0);
+    let told = equilibrium(&model, 0.0, &guess, &Input::default(), &ones);
+    assert!(matches!(told, Err(EquilibriumError::Open { .. } | EquilibriumError::Singular { .. })), "{told:?}");
+    guess.v.spin_rear = -5.0;
+    ones.spin_rear = 0.0;
+    let free = Free {
+        position: ones,
+        velocity: Velocity::zero(),
+        states: (),
+        input: Input { lean: 1.0, turn: 1.0, pedal: 1.0 },
+    };
+    let told = trim(&model, 0.0, &guess, &Input::default(), &free);
+    assert!(matches!(told, Err(EquilibriumError::Open { .. } | EquilibriumError::Singular { .. })), "{told:?}");
 }

@@ -168,6 +168,13 @@ impl Inertia {
         Inertia { mass: self.mass, first, second }
     }
 
+    /// Whether a turn about a coordinate axis leaves the distribution as it is.
+    pub fn is_symmetric(&self, axis: usize) -> bool {
+        let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
+        let off = [self.first[j], self.first[k], self.second[3], self.second[4], self.second[5]];
+        self.second[j] == self.second[k] && off.iter().all(|&moment| moment == Scalar::ZERO)
+    }
+
     /// Entry of the inertia tensor about the origin, tr(D) 1 - D.
     pub fn tensor(&self, g: &mut Graph, i: usize, j: usize) -> Scalar {
         if i == j {

@@ -33,18 +33,11 @@ struct Sums {
     moment: Vector,
 }
 
-/// Whether a turn about an axis leaves a distribution as it is.
-fn symmetric(inertia: &Inertia, axis: usize) -> bool {
-    let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
-    let off = [inertia.first[j], inertia.first[k], inertia.second[3], inertia.second[4], inertia.second[5]];
-    inertia.second[j] == inertia.second[k] && off.iter().all(|&moment| moment == Scalar::ZERO)
-}
-
 /// Whether there is anything to gather.
 pub fn differs(tree: &Tree) -> bool {
     tree.links.iter().any(|link| match link.motion {
         Motion::Prismatic(_) => link.parent.is_some() && link.rotation == Rotation::IDENTITY,
-        Motion::Revolute(axis) => !link.inertia.is_zero() && symmetric(&link.inertia, axis),
+        Motion::Revolute(axis) => !link.inertia.is_zero() && link.inertia.is_symmetric(axis),
         _ => false,
     })
 }
@@ -87,7 +80,7 @@ pub fn efforts(
             outer = outer.add(g, &Wrench { moment, force });
         }
         let unturned = match link.motion {
-            Motion::Revolute(axis) if group.len() == 1 && symmetric(&link.inertia, axis) => {
+            Motion::Revolute(axis) if group.len() == 1 && link.inertia.is_symmetric(axis) => {
                 let motion = before_turning(g, tree, index, acceleration, &motions, base);
                 Some(self::needed(g, &sums, &motion, &format!("{}_unturned", link.name)))
             }

@@ -4,7 +4,8 @@
 //! but get axes that don't turn against each other, so that vectors and inertias pass from one to the next without being
 //! turned; each link's own inertia and offsets turn instead, by the sum of the angles. The recursions take components at
 //! one instant and never differentiate them, so any axes will do. A planar chain costs one sine and cosine per absolute
-//! angle and has nothing else left to turn.
+//! angle and has nothing else left to turn. A last link that is symmetric about its hinge, as a wheel, is written in axes that its
+//! hinge does not turn, whatever the others are written in: no sine of its angle is left.
 
 use crate::symbolic::graph::{Graph, Rotation, Scalar};
 
@@ -26,12 +27,23 @@ pub struct Shared {
     pub tree: Tree,
     /// From each link's own axes to those it is written in now: for wrenches that are given in link axes.
     pub turns: Vec<Rotation>,
+    /// Whether parallel neighbours have axes in common.
+    pub is_joined: bool,
 }
 
 impl Shared {
-    /// Every link in its own axes.
-    pub fn own(tree: &Tree) -> Shared {
-        Shared { tree: tree.clone(), turns: vec![Rotation::IDENTITY; tree.links.len()] }
+    /// Every link in its own axes, but for symmetric last ones.
+    pub fn own(g: &mut Graph, tree: &Tree) -> Shared {
+        let mut tree = tree.clone();
+        let mut turns = vec![Rotation::IDENTITY; tree.links.len()];
+        for index in 0..tree.links.len() {
+            if let Some(axis) = symmetric_end(&tree, index) {
+                let link = &mut tree.links[index];
+                turns[index] = g.axis_rotation(axis, link.q);
+                link.q = Scalar::ZERO;
+            }
+        }
+        Shared { tree, turns, is_joined: false }
     }
 
     /// Wrenches given in link axes, in those of the tree.
@@ -62,7 +74,7 @@ pub fn share_axes(g: &mut Graph, tree: &Tree, axes: SharedAxes) -> Option<Shared
     if !members.iter().enumerate().any(joined) {
         return None;
     }
-    let references = references(&members, axes);
+    let references = references(tree, &members, axes);
     // How far each link has turned against its new axes.
     let mut angles = Vec::with_capacity(members.len());
     for member in &members {
@@ -96,7 +108,7 @@ pub fn share_axes(g: &mut Graph, tree: &Tree, axes: SharedAxes) -> Option<Shared
                 if planar { turn_planar(g, &link.inertia, axis, angle) } else { link.inertia.turn(g, axis, angle) };
         }
     }
-    Some(Shared { tree, turns })
+    Some(Shared { tree, turns, is_joined: true })
 }
 
 fn members(g: &mut Graph, tree: &Tree) -> Vec<Option<Member>> {
@@ -139,12 +151,22 @@ fn join(g: &mut Graph, link: &Link, axis: usize, parent: Member) -> Option<Membe
 }
 
 /// The angle of each group's new axes, at the position of its head.
-fn references(members: &[Option<Member>], axes: SharedAxes) -> Vec<Scalar> {
+fn references(tree: &Tree, members: &[Option<Member>], axes: SharedAxes) -> Vec<Scalar> {
     let mut references = vec![Scalar::ZERO; members.len()];
     if axes == SharedAxes::Tip {
-        for member in members.iter().flatten() {
-            references[member.head] = member.total;
+        for (index, member) in members.iter().enumerate() {
+            if let Some(member) = member.filter(|_| symmetric_end(tree, index).is_none()) {
+                references[member.head] = member.total;
+            }
         }
     }
     references
+}
+
+/// The axis of a hinge whose link carries nothing and looks the same however it is turned.
+fn symmetric_end(tree: &Tree, index: usize) -> Option<usize> {
+    let link = &tree.links[index];
+    let Motion::Revolute(axis) = link.motion else { return None };
+    let is_last = tree.links.iter().all(|other| other.parent != Some(index));
+    (is_last && link.inertia.is_symmetric(axis)).then_some(axis)
 }

@@ -399,7 +399,7 @@ impl<'m> Analysis<'m> {
             let unknowns = names(&step.unknowns);
             structure.notes.push(match &step.means {
                 Means::Linear(_) => format!("found by a linear coupling: {unknowns}"),
-                Means::Solve(_) => format!("found in closed form: {unknowns}"),
+                Means::Solve(_) | Means::Explicit(_) => format!("found in closed form: {unknowns}"),
                 Means::Newton { .. } => format!("found by Newton's method: {unknowns}"),
             });
         }

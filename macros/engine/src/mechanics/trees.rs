@@ -46,7 +46,11 @@ impl Equations<'_> {
             Method::Composite | Method::Floating => self.regrouped(),
         };
         let shared = self.scene.way.axes.and_then(|axes| share_axes(&mut self.g, &tree, axes));
-        let shared = Rc::new(shared.unwrap_or_else(|| Shared::own(&tree)));
+        let shared = match shared {
+            Some(shared) => shared,
+            None => Shared::own(&mut self.g, &tree),
+        };
+        let shared = Rc::new(shared);
         self.caches.trees.shared = Some(Rc::clone(&shared));
         shared
     }

@@ -94,6 +94,24 @@ impl Print {
         Print([modular::mul::<PRIME>(a, scale), modular::mul::<PRIME>(modular::neg::<PRIME>(b), scale)])
     }
 
+    /// A value whose square this is, if there is one.
+    pub fn root(self) -> Option<Print> {
+        let [a, b] = self.0;
+        if b == 0 {
+            return None;
+        }
+        // (c + d r)^2 = a + b r: the norm is the square of c^2 - d^2 r^2, and c^2 is half of a and that.
+        let (mul, add) = (modular::mul::<PRIME>, modular::add::<PRIME>);
+        let square = mul(mul(b, b), NON_SQUARE);
+        let norm = modular::root::<PRIME>(add(mul(a, a), modular::neg::<PRIME>(square)))?;
+        let half = modular::inverse::<PRIME>(2);
+        let halves = [add(a, norm), add(a, modular::neg::<PRIME>(norm))].map(|twice| mul(half, twice));
+        let c = halves.into_iter().find_map(modular::root::<PRIME>)?;
+        let d = mul(b, modular::inverse::<PRIME>(add(c, c)));
+        let root = Print([c, d]);
+        (root * root == self).then_some(root)
+    }
+
     /// One word for hash tables.
     pub fn key(self) -> u64 {
         self.0[0] ^ self.0[1].rotate_left(32)
@@ -232,6 +250,19 @@ mod tests {
         // The largest that is ever reduced.
         let most = 2 * u128::from(PRIME - 1) * u128::from(PRIME - 1);
         assert_eq!(u128::from(modular::reduce_wide::<PRIME>(most)), most % u128::from(PRIME));
+    }
+
+    #[test]
+    fn squares_have_roots() {
+        let mut squares = 0;
+        for k in 0..64 {
+            let x = Print::draw(k);
+            let root = (x * x).root();
+            assert!(root == Some(x) || root == Some(-x));
+            squares += usize::from(x.root().is_some());
+        }
+        // Half of all values are squares.
+        assert!((20..44).contains(&squares), "{squares}");
     }
 
     #[test]

@@ -276,6 +276,7 @@ impl Graph {
         self.insert_scalar(ScalarNode::Reciprocal(node), inverse).flip_if(x.is_negative())
     }
 
+    /// The root that is not negative: of a square |y|, where y is something that is there anyway, as a sine's cosine.
     pub fn sqrt(&mut self, x: Scalar) -> Scalar {
         if x == Scalar::ZERO || x == Scalar::ONE {
             return x;
@@ -292,7 +293,22 @@ impl Graph {
         if let Some(root) = literal.and_then(elementary::opaque_root) {
             return self.number(root);
         }
+        if let Some(square) = self.print(x).root().and_then(|root| self.find(root)).filter(|&y| self.is_at_hand(y)) {
+            return self.call(Call::Abs, &[square]);
+        }
         self.insert_scalar(ScalarNode::Sqrt(x), print)
+    }
+
+    /// Whether a node is one of those that are there whatever else is made of them, or a product of such.
+    pub(super) fn is_at_hand(&self, s: Scalar) -> bool {
+        match self.node(s) {
+            ScalarNode::Literal(_) | ScalarNode::Symbol(_) | ScalarNode::Sin(_) | ScalarNode::Cos(_) => true,
+            ScalarNode::Output(..) => true,
+            ScalarNode::Product(factors) => {
+                factors.iter().all(|&f| !matches!(self.node(f), ScalarNode::Product(_)) && self.is_at_hand(f))
+            }
+            _ => false,
+        }
     }
 
     /// The length of a vector.

@@ -78,18 +78,26 @@ impl Graph {
             return None;
         }
         let units = self.units(angle);
-        let (mut given, mut rest) = (Vec::new(), vec![self.number(units.constant)]);
+        let (mut given, mut others) = (Vec::new(), Vec::new());
         for (unit, factor) in units.terms {
             match self.given_point(unit, factor) {
                 Some(point) => given.push(point),
-                None => {
-                    let factor = self.number(factor);
-                    rest.push(self.mul(factor, unit));
-                }
+                None => others.push((unit, factor)),
             }
         }
         if given.is_empty() {
             return None;
+        }
+        for point in &mut given {
+            if let Some((at, sum)) = self.known_sum(*point, &others) {
+                others.remove(at);
+                *point = sum;
+            }
+        }
+        let mut rest = vec![self.number(units.constant)];
+        for (unit, factor) in others {
+            let factor = self.number(factor);
+            rest.push(self.mul(factor, unit));
         }
         let rest = self.sum(&rest);
         let (mut cos, mut sin) = (self.cos(rest), self.sin(rest));
@@ -101,6 +109,23 @@ impl Graph {
             }
         }
         Some((cos, sin))
+    }
+
+    /// Which unit makes of a given point one whose cosine and sine are there anyway, and that one: an iteration starts at a guess, and what
+    /// it has turned by since is given beside its result.
+    fn known_sum(
+        &self,
+        (c, s, times): (Scalar, Scalar, i64),
+        units: &[(Scalar, Number)],
+    ) -> Option<(usize, (Scalar, Scalar, i64))> {
+        let given = Point { cos: self.print(c), sin: self.print(s) }.times(times.into());
+        let sum = |&(unit, factor): &(Scalar, Number)| {
+            let unit = multiple(self.print(unit), factor, |unit| Point::drawn(0xA9_61E5, unit));
+            let Point { cos, sin } = given + unit;
+            let [cos, sin] = [self.find(cos)?, self.find(sin)?];
+            (self.is_at_hand(cos) && self.is_at_hand(sin)).then_some((cos, sin, 1))
+        };
+        units.iter().enumerate().find_map(|(at, unit)| Some((at, sum(unit)?)))
     }
 
     /// The angle of a point that is this one, or this one up to what is added.

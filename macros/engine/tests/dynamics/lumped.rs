@@ -4,8 +4,9 @@
 use multibody_engine::dynamics::kinematics;
 use multibody_engine::dynamics::lumped;
 use multibody_engine::dynamics::newton_euler::{Wrench, efforts, transmitted};
+use multibody_engine::dynamics::shared_axes::{Shared, SharedAxes, share_axes};
 use multibody_engine::symbolic::evaluate::{Evaluator, Real};
-use multibody_engine::symbolic::graph::{Graph, Scalar, SymbolId, Vector};
+use multibody_engine::symbolic::graph::{Graph, Rotation, Scalar, SymbolId, Vector};
 
 use crate::on_graph::{derive, point};
 use crate::random::{Kind, Mechanism, State};
@@ -88,4 +89,56 @@ fn groups_need_what_links_need() {
         other += usize::from(lumped::differs(&derive(&mechanism).tree));
     }
     assert!(other > 75, "{other} have groups");
+}
+
+/// Efforts against a force on a link in its axes, the tree in axes of its own or in others, and how many of its links don't turn there.
+fn efforts_in(
+    mechanism: &Mechanism,
+    state: &State,
+    (link, force): (usize, [f64; 6]),
+    axes: Option<Option<SharedAxes>>,
+) -> Option<(Vec<f64>, usize)> {
+    let mut m = derive(mechanism);
+    let g = &mut m.graph;
+    let mut applied = vec![Wrench::ZERO; m.tree.links.len()];
+    applied[link] = wrench(g, force);
+    let mut still = 0;
+    if let Some(axes) = axes {
+        let shared = match axes {
+            Some(axes) => share_axes(g, &m.tree, axes)?,
+            None => Shared::own(g, &m.tree),
+        };
+        applied = shared.turn(g, &applied);
+        still = shared.turns.iter().filter(|&&turn| turn != Rotation::IDENTITY).count();
+        m.tree = shared.tree;
+    }
+    let tree = &m.tree;
+    let base = tree.gravity.map_or(Vector::ZERO, |gravity| g.vector(gravity.map(|component| -component)));
+    let motions = kinematics::motions(g, tree, &tree.velocity, &tree.acceleration, base);
+    let wrenches = transmitted(g, tree, &motions, &applied);
+    let roots = efforts(g, tree, &wrenches, &tree.acceleration);
+    let values = point(state);
+    Some((Evaluator::new(&m.graph, Real { symbols: &|id: SymbolId| values[id.0] }).run(&roots), still))
+}
+
+#[test]
+fn wheels_are_written_in_axes_that_do_not_spin() {
+    let (mut still, mut joined) = (0, 0);
+    for seed in 0..150 {
+        let mut rng = Rng::new(seed);
+        let mechanism = mechanism(&mut rng);
+        let state = mechanism.state(&mut rng);
+        let force = (rng.below(mechanism.bodies.len()), [(); 6].map(|()| rng.decimal(-3.0, 3.0)));
+        let (want, _) = efforts_in(&mechanism, &state, force, None).expect("is there");
+        let largest = want.iter().fold(1.0_f64, |most, x| most.max(x.abs()));
+        for axes in [None, Some(SharedAxes::Base), Some(SharedAxes::Tip)] {
+            let Some((got, count)) = efforts_in(&mechanism, &state, force, Some(axes)) else { continue };
+            for (a, b) in got.iter().zip(&want) {
+                assert!((a - b).abs() < 1e-10 * largest, "{seed}: {got:?} for {want:?} of {mechanism:?}");
+            }
+            still += usize::from(axes.is_none() && count > 0);
+            joined += usize::from(axes.is_some());
+        }
+    }
+    assert!(still > 50 && joined > 20, "{still} have wheels, {joined} are in common axes");
 }

@@ -47,6 +47,7 @@ fn steps(model: &Model, structure: &Structure) -> Vec<String> {
     let step = |step: &multibody_engine::mechanics::loops::structure::Step| {
         let means = match &step.means {
             Means::Linear(_) => "linear".to_owned(),
+            Means::Explicit(_) => "explicit".to_owned(),
             Means::Solve(k) => format!("solve {k}"),
             Means::Newton { rows, guess } => {
                 assert_eq!(rows.len(), step.unknowns.len());
@@ -397,6 +398,35 @@ fn many_four_bars_in_a_row() {
     let all = steps(&m, &structure);
     assert_eq!(all.len(), count);
     assert_eq!(all[3], "newton 6: rod3 next3");
+}
+
+#[test]
+fn what_stands_alone_is_solved_for() {
+    let three = "joint a: Prismatic { parent: ground, child: one, axis: X }
+        joint b: Prismatic { parent: ground, child: two, axis: [1.0, 2.0, 0.3] }
+        joint c: Revolute { parent: two, child: three, axis: Z }";
+    let of = |constraints: &str, more: &str| {
+        let m = model(&format!(
+            "{} {three} {constraints} formulation {{ constraints: Reduced {more} }}",
+            bodies(&["one", "two", "three"])
+        ));
+        let structure = sound(&m);
+        (steps(&m, &structure), structure.guesses())
+    };
+    let explicit = |text: &str| (vec![text.to_owned()], 0);
+    assert_eq!(of("constraint e = 2.0 * b + sin(a) * cos(c);", ", independent: [a, c]"), explicit("explicit: b"));
+    assert_eq!(of("constraint e = two.position.z - a * a;", ", independent: [a, c]"), explicit("explicit: b"));
+    // Its factor depends on another coordinate, or on a parameter that may be zero, or it stands elsewhere too.
+    let newton = |text: &str| (vec![text.to_owned()], 1);
+    assert_eq!(of("constraint e = a * b + cos(c) - 0.5;", ", independent: [a, c]"), newton("newton 0: b"));
+    assert_eq!(of("param k = 2.0; constraint e = k * b + cos(c);", ", independent: [a, c]"), newton("newton 0: b"));
+    assert_eq!(of("constraint e = b + 0.1 * sin(b) + cos(c);", ", independent: [a, c]"), newton("newton 0: b"));
+    // A coupling puts the coordinate there too.
+    let (all, guesses) = of("constraint l = a - 3.0 * b; constraint e = b + sin(a) + cos(c);", ", independent: [c]");
+    assert_eq!((all.len(), guesses), (2, 1), "{all:?}");
+    // One gives what another one reads.
+    let (all, guesses) = of("constraint e = b + sin(c); constraint f = a + b * b - c;", ", independent: [c]");
+    assert_eq!((all, guesses), (vec!["explicit: b".to_owned(), "explicit: a".to_owned()], 0));
 }
 
 /// Three arms with parallelograms of ball joints: idle spins of the rods, and three freedoms of the plate.

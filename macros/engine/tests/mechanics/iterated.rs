@@ -146,6 +146,59 @@ const SMALL: Mechanism = Mechanism {
     independent: "",
 };
 
+/// One equation, one angle of which it reads the sine and cosine alone: a tip on a wavy surface, everything oblique.
+const FOLLOWER: Mechanism = Mechanism {
+    name: "a follower on a wave",
+    parts: "",
+    body: "world { gravity: [0.3, -0.2, -9.80665] }
+        input torque;
+        param deep = 0.11;
+        body crank { mass: 0.3, com: [0.1, 0.02, 0.03], inertia: diag(0.01, 0.02, 0.03) }
+        body arm { mass: 0.2, com: [0.2, -0.01, 0.05], inertia: diag(0.003, 0.02, 0.02) }
+        joint shaft: Revolute { parent: ground.at([0.1, -0.2, 0.5]), child: crank, axis: [0.1, 1.0, 0.3] }
+        joint elbow: Revolute { parent: crank.at([0.4, 0.1, 0.05]), child: arm, axis: [-0.2, 1.0, 0.25] }
+        let tip = arm.at([0.7, 0.03, -0.02]);
+        constraint on_wave = tip.position.z - deep * sin(5.0 * tip.position.x) - 0.2 * tip.position.y * tip.position.y;
+        force motor: Effort { joint: shaft, value: torque }",
+    independent: ", independent: [shaft]",
+};
+
+/// One equation and a number: a slider at a fixed distance on an oblique rail. Another one, an angle that is read as such.
+const RIDER: Mechanism = Mechanism {
+    name: "a rider, and a crank with a cam of its own angle",
+    parts: "",
+    body: "world { gravity: [0.3, -0.2, -9.80665] }
+        input torque;
+        body crank { mass: 0.3, com: [0.1, 0.02, 0.03], inertia: diag(0.01, 0.02, 0.03) }
+        body block { mass: 0.7 }
+        body cam { mass: 0.4, com: [0.01, 0.02, 0.05], inertia: diag(0.02, 0.02, 0.01) }
+        joint shaft: Revolute { parent: ground.at([0.1, -0.2, 0.5]), child: crank, axis: [0.1, 1.0, 0.3] }
+        joint rail: Prismatic { parent: ground.at([0.3, 0.1, 0.0]), child: block, axis: [1.0, 0.2, 0.1] }
+        joint turn: Revolute { parent: block, child: cam, axis: [0.2, 0.3, 1.0] }
+        constraint rod: Rod { between: [crank.at([0.3, 0.02, 0.1]), block.at([0.0, 0.0, 0.05])], length: 0.9 }
+        constraint cammed = turn + 0.3 * sin(2.0 * turn) - 1.7 * shaft + 0.2 * rail;
+        force motor: Effort { joint: shaft, value: torque }",
+    independent: ", independent: [shaft]",
+};
+
+/// What stands alone in its equation is found without any guess, from what others give, before and behind it.
+const FLOATER: Mechanism = Mechanism {
+    name: "a float that a lever dips",
+    parts: "",
+    body: "world { gravity: [0.3, -0.2, -9.80665] }
+        input torque;
+        body sled { mass: 0.3, inertia: diag(0.01, 0.02, 0.03) }
+        body buoy { mass: 0.2, com: [0.02, -0.01, 0.05], inertia: diag(0.003, 0.02, 0.02) }
+        body lever { mass: 0.4, com: [0.2, 0.02, 0.05], inertia: diag(0.02, 0.02, 0.01) }
+        joint run: Prismatic { parent: ground, child: sled, axis: [1.0, 0.2, 0.1] }
+        joint dip: Prismatic { parent: sled.at([0.1, 0.2, 0.3]), child: buoy, axis: [0.2, -0.3, 1.0] }
+        joint tilt: Revolute { parent: buoy.at([0.1, 0.02, 0.0]), child: lever, axis: [0.1, 1.0, 0.3] }
+        constraint deep = 1.3 * dip - 0.2 * sin(3.0 * run) * cos(run) + 0.1 * run * run - 0.07;
+        constraint touching = lever.at([0.5, 0.02, 0.1]).position.z - 0.25 - 0.05 * lever.at([0.5, 0.02, 0.1]).position.x;
+        force motor: Effort { joint: run, value: torque }",
+    independent: ", independent: [run]",
+};
+
 /// Functions with the values of fields.
 struct Programs<'a> {
     case: &'a Case,
@@ -210,6 +263,20 @@ fn check(mechanism: &Mechanism, tolerance: f64) {
     let (state, guessed) = (&reduced.structure.state, reduced.structure.guessed());
     assert!(!guessed.is_empty());
     let all = &kept.structure.state;
+    let columns: Vec<usize> = (0..all.len()).filter(|&k| !state.contains(&all[k])).collect();
+    let of_rows = |values: &Values, columns: &[usize]| {
+        let jacobian = others.eval(FunctionKind::ConstraintJacobian, values);
+        let rows: Vec<Vec<f64>> = jacobian.chunks(all.len()).map(<[f64]>::to_vec).collect();
+        let normal: Vec<f64> = columns
+            .iter()
+            .flat_map(|&i| columns.iter().map(move |&j| (i, j)))
+            .map(|(i, j)| rows.iter().map(|row| row[i] * row[j]).sum())
+            .collect();
+        (rows, normal)
+    };
+    let across = |rows: &[Vec<f64>], residuals: &[f64]| -> Vec<f64> {
+        columns.iter().map(|&i| rows.iter().zip(residuals).map(|(row, r)| -row[i] * r).sum()).collect()
+    };
     let mut random = Random(17);
     let (mut compared, mut open, mut singular) = (0, 0, 0);
     for closed in &reduced.structure.closed {
@@ -233,33 +300,37 @@ fn check(mechanism: &Mechanism, tolerance: f64) {
                 open += 1;
                 continue;
             }
+            // What needs no guess is found by the equations of the other one, and what was found with one stays.
             let mut full = values.clone();
+            let start = |&k: &usize| (position(all[k]), closed.value(&kept.model, all[k]).expect("a number"));
+            full.extend(columns.iter().map(start));
             full.extend(guessed.iter().map(|&c| position(c)).zip(found.iter().copied()));
+            for _ in 0..6 {
+                let residuals = others.eval(FunctionKind::Constraints, &full);
+                let (rows, normal) = of_rows(&full, &columns);
+                for (&k, change) in columns.iter().zip(solve_f64(&normal, &across(&rows, &residuals))) {
+                    *full.entry(position(all[k])).or_default() += change;
+                }
+            }
             // Velocities that keep the loops closed, by least squares and one refinement.
-            let jacobian = others.eval(FunctionKind::ConstraintJacobian, &full);
-            let rows: Vec<&[f64]> = jacobian.chunks(all.len()).collect();
-            let columns: Vec<usize> =
-                guessed.iter().map(|c| all.iter().position(|other| other == c).expect("kept")).collect();
-            let normal: Vec<f64> = columns
-                .iter()
-                .flat_map(|&i| columns.iter().map(move |&j| (i, j)))
-                .map(|(i, j)| rows.iter().map(|row| row[i] * row[j]).sum())
-                .collect();
+            let (rows, normal) = of_rows(&full, &columns);
             for _ in 0..3 {
-                let rate = |row: &&[f64]| -> f64 {
+                let rate = |row: &Vec<f64>| -> f64 {
                     row.iter().zip(all).map(|(a, &c)| a * full.get(&velocity(c)).copied().unwrap_or(0.0)).sum()
                 };
                 let rates: Vec<f64> = rows.iter().map(rate).collect();
-                let side: Vec<f64> =
-                    columns.iter().map(|&i| rows.iter().zip(&rates).map(|(row, r)| -row[i] * r).sum()).collect();
-                for (&coordinate, change) in guessed.iter().zip(solve_f64(&normal, &side)) {
-                    *full.entry(velocity(coordinate)).or_default() += change;
+                for (&k, change) in columns.iter().zip(solve_f64(&normal, &across(&rows, &rates))) {
+                    *full.entry(velocity(all[k])).or_default() += change;
                 }
             }
             // Nor do accelerations of the state say much near a dead centre, where any are right.
-            if least_pivot(normal.clone(), guessed.len()) < SINGULAR {
+            if least_pivot(normal, columns.len()) < SINGULAR {
                 singular += 1;
                 continue;
+            }
+            for (&coordinate, &x) in guessed.iter().zip(&found) {
+                let error = (full[&position(coordinate)] - x).abs();
+                assert!(error <= tolerance, "{}: a guess off by {error:e}", mechanism.name);
             }
             let got = programs.eval(FunctionKind::ForwardDynamics, &values);
             let want = others.eval(FunctionKind::ForwardDynamics, &full);
@@ -305,6 +376,60 @@ fn a_six_bar() {
 #[test]
 fn a_small_loop() {
     check(&SMALL, 1e-10);
+}
+
+#[test]
+fn one_angle() {
+    check(&FOLLOWER, 1e-10);
+}
+
+#[test]
+fn one_number() {
+    check(&RIDER, 1e-10);
+}
+
+#[test]
+fn what_stands_alone() {
+    check(&FLOATER, 1e-10);
+}
+
+/// What a round leaves of half the error is an eighth of what it leaves of the whole.
+#[test]
+fn rounds_with_one_unknown_are_of_third_order() {
+    for mechanism in [&FOLLOWER, &RIDER] {
+        let formulation =
+            "formulation { constraints: Reduced, independent: [shaft], rounds: 1 } emit forward_dynamics;";
+        let case = case_with(mechanism.parts, &format!("{} {formulation}", mechanism.body));
+        let (programs, guessed) = (Programs::of(&case), case.structure.guessed());
+        let closed = &case.structure.closed[0];
+        let mut values = Values::new();
+        for &coordinate in &case.structure.state {
+            values.insert(position(coordinate), closed.value(&case.model, coordinate).expect("a number"));
+        }
+        let mut at = |from: &[f64]| {
+            values.extend((0..).map(|index| Symbol::Guess { index }).zip(from.iter().copied()));
+            programs.eval(FunctionKind::Guess, &values)[..guessed.len()].to_vec()
+        };
+        let mut exact: Vec<f64> =
+            guessed.iter().map(|&coordinate| closed.value(&case.model, coordinate).expect("a number")).collect();
+        for _ in 0..4 {
+            exact = at(&exact);
+        }
+        for k in 0..guessed.len() {
+            // Later unknowns read what earlier ones are found as: each alone is off.
+            let mut left = |off: f64| {
+                let mut from = exact.clone();
+                from[k] += off;
+                (at(&from)[k] - exact[k]).abs()
+            };
+            for off in [0.04, -0.04] {
+                let (whole, half) = (left(off), left(0.5 * off));
+                println!("{}, {k}: {whole:.1e} and {half:.1e} of {off}", mechanism.name);
+                assert!(whole < 40.0 * off.abs().powi(3), "{}", mechanism.name);
+                assert!((6.0..10.7).contains(&(whole / half)), "{}: {}", mechanism.name, whole / half);
+            }
+        }
+    }
 }
 
 /// Sliders that all read each other: Newton's method takes a system which is too large to be written out.

@@ -6,7 +6,7 @@ use multibody_engine::contracts::call::Call;
 use multibody_engine::dynamics::articulated_inertia::ArticulatedInertia;
 use multibody_engine::dynamics::inertia::Inertia;
 use multibody_engine::symbolic::evaluate::{Evaluator, Field, Real};
-use multibody_engine::symbolic::graph::{BlockKind, Graph, Rotation, Scalar, SymbolId};
+use multibody_engine::symbolic::graph::{BlockKind, Graph, Rotation, Scalar, ScalarNode, SymbolId};
 use multibody_engine::symbolic::identity::{Draw, Modular, Verdict, close, identical};
 use multibody_engine::symbolic::lower::Lowering;
 use multibody_engine::symbolic::number::Number;
@@ -154,6 +154,36 @@ fn roots_are_exact_but_for_their_sign() {
         g.sqrt(-square)
     };
     assert_eq!(compare(never, never), (Verdict::Undecided, Verdict::Undecided));
+}
+
+fn is_root(g: &mut Graph, x: Scalar) -> bool {
+    let root = g.sqrt(x);
+    matches!(g.node(root), ScalarNode::Sqrt(_))
+}
+
+/// A root of what is the square of something at hand is its size, however it is written; a root of anything else stays one.
+#[test]
+fn roots_of_squares_are_sizes() {
+    let (mut g, [a, b]) = graph();
+    let (sin, cos) = (g.sin(a), g.cos(a));
+    let squares = [sin, cos, b].map(|x| g.mul(x, x));
+    let rest = g.sub(Scalar::ONE, squares[0]);
+    let root = g.sqrt(rest);
+    assert_eq!(root, g.call(Call::Abs, &[cos]));
+    let values = Evaluator::new(&g, Real { symbols: &|id: SymbolId| [2.0, 0.3][id.0] }).run(&[root]);
+    assert!((values[0] + 2.0_f64.cos()).abs() < 1e-15);
+    assert!(is_root(&mut g, -rest), "of what is never positive");
+    // b^2 - (b cos a)^2 = (b sin a)^2, which is at hand once b sin a is.
+    let shadow = g.mul(squares[1], squares[2]);
+    let height = g.sub(squares[2], shadow);
+    assert!(is_root(&mut g, height));
+    let (mut g, [a, b]) = graph();
+    let (sin, cos) = (g.sin(a), g.cos(a));
+    let side = g.mul(sin, b);
+    let squares = [cos, b].map(|x| g.mul(x, x));
+    let shadow = g.mul(squares[0], squares[1]);
+    let height = g.sub(squares[1], shadow);
+    assert_eq!(g.sqrt(height), g.call(Call::Abs, &[side]));
 }
 
 #[test]

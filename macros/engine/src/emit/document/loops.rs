@@ -143,7 +143,9 @@ pub(super) fn closings(layout: &Layout<'_>) -> Vec<ClosingFact> {
         let kept = structure.rows.iter().filter(|row| row.closing == closing).count();
         let solved = structure.steps.iter().map(|step| match &step.means {
             Means::Newton { rows, .. } => rows.iter().filter(|row| row.closing == closing).count(),
-            Means::Linear(constraint) => usize::from(closing == LoopClosure::Constraint(*constraint)),
+            Means::Linear(constraint) | Means::Explicit(constraint) => {
+                usize::from(closing == LoopClosure::Constraint(*constraint))
+            }
             Means::Solve(_) => 0,
         });
         let solved: usize = solved.sum();
@@ -197,6 +199,9 @@ fn dependents(layout: &Layout<'_>, step: &Step) -> String {
     match &step.means {
         Means::Linear(constraint) => {
             format!("{unknowns}: linear in the others, by {}", closing(LoopClosure::Constraint(*constraint)))
+        }
+        Means::Explicit(constraint) => {
+            format!("{unknowns}: explicitly, by {}", closing(LoopClosure::Constraint(*constraint)))
         }
         Means::Solve(number) => match &model.solves[*number].how {
             SolveHow::From { closings, branches } => {

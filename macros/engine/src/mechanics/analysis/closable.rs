@@ -68,7 +68,7 @@ pub fn closable(model: &Model, structure: &Structure) -> Option<(Vec<Closable>, 
 fn newton(structure: &Structure) -> impl Iterator<Item = (&[Row], &[Coordinate])> {
     structure.steps.iter().filter_map(|step| match &step.means {
         Means::Newton { rows, .. } => Some((rows.as_slice(), step.unknowns.as_slice())),
-        Means::Linear(_) | Means::Solve(_) => None,
+        Means::Linear(_) | Means::Explicit(_) | Means::Solve(_) => None,
     })
 }
 

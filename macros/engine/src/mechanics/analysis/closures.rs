@@ -62,9 +62,9 @@ fn leads(model: &Model, solved: &Structure, wanted: &Kinematics) -> bool {
             (Means::Solve(item), Source::Row(row)) => {
                 model.solves[*item].closings().any(|closing| row.closing == closing)
             }
-            (Means::Linear(id), Source::Row(row)) => row.closing == LoopClosure::Constraint(*id),
+            (Means::Linear(id) | Means::Explicit(id), Source::Row(row)) => row.closing == LoopClosure::Constraint(*id),
             (Means::Newton { rows, .. }, Source::Row(row)) => rows.contains(&row),
-            (Means::Linear(_) | Means::Newton { .. }, Source::Formula(..)) => false,
+            (Means::Linear(_) | Means::Explicit(_) | Means::Newton { .. }, Source::Formula(..)) => false,
         };
         let equations = problem.equations.iter().filter(|equation| reads(equation.source));
         let columns = equations.flat_map(|equation| &equation.columns);

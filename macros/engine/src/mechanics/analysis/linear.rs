@@ -12,6 +12,7 @@ use crate::mechanics::loops::constraints::turns::Turns;
 use crate::mechanics::translate::symbols::has_quaternion;
 use crate::model::types::{ConstraintId, ConstraintKind, Coordinate, LoopClosure, Model};
 use crate::symbolic::graph::ScalarNode;
+use crate::symbolic::lower::Lowering;
 
 use super::super::equations::Equations;
 
@@ -67,6 +68,23 @@ fn coupling(e: &mut Equations<'_>, model: &Model, constraint: ConstraintId) -> O
     }
     terms.sort_unstable();
     (!terms.is_empty()).then_some(Coupling { constraint, terms })
+}
+
+/// Whether a constraint reads a coordinate with a number as its factor, whatever it does with all others.
+pub(super) fn stands_alone(model: &Model, constraint: ConstraintId, coordinate: Coordinate) -> bool {
+    let kind = &model.joints[coordinate.joint];
+    if !matches!(model.constraints[constraint].kind, ConstraintKind::Value(_)) || has_quaternion(kind) {
+        return false;
+    }
+    let mut e = Equations::plain(model);
+    if let Turns::Whole(..) = e.turns(constraint) {
+        return false;
+    }
+    let residuals = e.residuals(LoopClosure::Constraint(constraint), Writing::PLAIN);
+    let slopes = e.partial(&residuals, coordinate);
+    let mut lowering = Lowering::new(&e.g);
+    let slopes = lowering.run(&slopes);
+    matches!(slopes[..], [slope] if lowering.to.literal(slope).is_some_and(|n| n.value() != 0.0))
 }
 
 /// Components of positions that a scalar depends on.

@@ -15,7 +15,7 @@ use crate::symbolic::triangular_form::{components, matching};
 
 use super::checks::thing;
 use super::configurations::Configuration;
-use super::linear::Elimination;
+use super::linear::{self, Elimination};
 use super::problem::{Problem, Source};
 use super::rank::Basis;
 use super::singular::{add, dot};
@@ -390,15 +390,28 @@ impl ReductionSearch<'_> {
                         .filter_map(|&k| matched[k].and_then(|unknown| unknowns.get(unknown)).copied())
                         .collect();
                     found.sort_unstable();
-                    let unknowns = found.into_iter().map(|column| self.coordinate(column)).collect();
+                    let unknowns: Vec<Coordinate> = found.into_iter().map(|column| self.coordinate(column)).collect();
                     let rows: Vec<Row> = places.iter().filter_map(|&k| self.row(rows[k])).collect();
                     self.check_turns(&rows)?;
-                    steps.push(Step { unknowns, means: Means::Newton { rows, guess: 0 } });
+                    let means = self.explicit(&rows, &unknowns).unwrap_or(Means::Newton { rows, guess: 0 });
+                    steps.push(Step { unknowns, means });
                 }
             }
         }
         self.check_teeth(&steps)?;
         Ok(steps)
+    }
+
+    /// One equation that is solved for its unknown, if no coupling gives what it reads.
+    fn explicit(&self, rows: &[Row], unknowns: &[Coordinate]) -> Option<Means> {
+        let (&[Row { closing: LoopClosure::Constraint(id), .. }], &[unknown]) = (rows, unknowns) else { return None };
+        let place = self.row_of_constraint(id)?;
+        let columns = &self.problem.equations[self.group.equations[place]].columns;
+        let is_coupled = |&column: &usize| {
+            self.eliminations.iter().any(|one| one.unknown == self.problem.columns[column].coordinate)
+        };
+        let stands_alone = !columns.iter().any(is_coupled) && linear::stands_alone(self.model, id, unknown);
+        stands_alone.then_some(Means::Explicit(id))
     }
 
     /// From a guess a thread that doesn't count its turns could be found on another one.

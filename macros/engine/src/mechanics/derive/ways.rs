@@ -17,7 +17,7 @@ use crate::mechanics::scene::{Choices, Method, Scene};
 use crate::mechanics::translate::symbols::Symbols;
 use crate::model::site::Sited;
 use crate::model::types::JointId;
-use crate::symbolic::graph::{Graph, Rotation, Scalar};
+use crate::symbolic::graph::{Graph, Scalar};
 use crate::symbolic::lower::Lowering;
 
 use super::{AXES, Candidate, Deriving, Found, LUMPED, MOST_COMPOSITE, Names, freedoms};
@@ -205,7 +205,7 @@ impl<'m> Deriving<'m> {
         };
         let mut equations = Equations::new(graph, scene);
         equations.decided = std::mem::take(&mut self.decided);
-        let exists = way.axes.is_none() || equations.shared().turns.iter().any(|&turn| turn != Rotation::IDENTITY);
+        let exists = way.axes.is_none() || equations.shared().is_joined;
         let results = if exists { f(&mut equations) } else { Ok(Results::default()) };
         let unfinished = |g: &Graph, results: &[Scalar]| results.iter().any(|&root| Symbols::is_unfinished(g, root));
         // Nodes are found by value: what is made after definitions were put in may come out as an older node, in which a

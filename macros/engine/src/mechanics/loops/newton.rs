@@ -4,15 +4,11 @@
 //! has ended the rates and accelerations: J x' = -E' and J x'' = -E''.
 //!
 //! An angle that equations read by its cosine and sine alone is iterated as that point (c, s) on the circle, so sines are
-//! taken of the guess once and of nothing afterwards. A step by -d turns the point by twice the angle whose tangent is -d/2
-//! (Cayley), which is d but for its cube, so convergence stays quadratic, and a step from far off stays below half a turn:
-//!
-//! ```text
-//! h = d/2, p = d / (1 + h^2), (c, s) <- (c + p (s - c h), s - p (c + s h))
-//! ```
-//!
-//! In exact arithmetic the point stays on the circle, and small steps add small errors. The angle itself, for the next guess or whoever
+//! taken of the guess once and of nothing afterwards. How far it is turned, or a number is moved, in a round: `newton/steps`. In exact
+//! arithmetic the point stays on the circle, and small steps add small errors. The angle itself, for the next guess or whoever
 //! asks, is the guess and what the point has turned by: whole turns are those of the guess.
+
+mod steps;
 
 use std::collections::HashSet;
 
@@ -27,6 +23,7 @@ use crate::symbolic::lower::Lowering;
 
 use super::reduction::{Definition, Map, Newton, Reduction};
 use super::structure::{Means, Step};
+use steps::Move;
 
 /// An unknown of an iteration.
 struct Unknown {
@@ -50,7 +47,6 @@ impl Equations<'_> {
         let equations: Vec<Scalar> = rows.iter().map(|row| self.row(*row)).collect();
         // A coupled coordinate may depend on the unknowns: it moves with them.
         let equations = self.g.substitute(&equations, &reduction.coupled);
-        // What later steps find stands in them in form alone, as a point turned there and back: any value will do.
         let later = self.later_unknowns(step);
         let equations = self.g.substitute(&equations, &later);
         let mut matrix = Vec::with_capacity(size * size);
@@ -136,24 +132,38 @@ impl Equations<'_> {
             return (unknowns.iter().map(|unknown| unknown.start).collect(), residual);
         }
         let entries = self.g.substitute(matrix, &map);
-        let steps = self.eliminate(unknowns.len(), &entries, &values);
+        let rounds = self.scene.model.rounds;
+        let (count, moves) = match (unknowns, &values[..], &entries[..]) {
+            ([unknown], &[value], &[slope]) => {
+                let curvature = self.g.derivative(matrix[0], &[(unknown.symbol, Scalar::ONE)]);
+                let curvature = self.g.substitute(&[curvature], &map)[0];
+                let moving = Move::of_third_order(&mut self.g, [value, slope, curvature], unknown.point.is_some());
+                (steps::rounds_of_third_order(rounds), vec![moving])
+            }
+            _ => {
+                let found = self.eliminate(unknowns.len(), &entries, &values);
+                let moves = unknowns.iter().zip(found);
+                let moves = moves.map(|(unknown, by)| Move::by(&mut self.g, by, unknown.point.is_some())).collect();
+                (rounds, moves)
+            }
+        };
         let (mut symbols, mut start, mut next) = (Vec::new(), Vec::new(), Vec::new());
-        for (unknown, &step) in unknowns.iter().zip(&steps) {
-            match unknown.point {
-                Some(point) => {
+        for (unknown, moving) in unknowns.iter().zip(moves) {
+            match (unknown.point, moving) {
+                (Some(point), Move::Turn { sin, versine }) => {
                     symbols.extend(point);
                     start.extend([self.g.cos(unknown.start), self.g.sin(unknown.start)]);
-                    next.extend(turned_back(&mut self.g, point, step));
+                    next.extend(steps::turned_back(&mut self.g, point, [sin, versine]));
                 }
-                None => {
+                (_, Move::Shift(by) | Move::Turn { sin: by, .. }) => {
                     symbols.push(unknown.inner);
                     start.push(unknown.start);
-                    next.push(self.g.sub(unknown.inner, step));
+                    next.push(self.g.sub(unknown.inner, by));
                 }
             }
         }
         let unknown_ids = symbols.iter().filter_map(|&s| self.g.symbol_id(s)).collect();
-        let kind = BlockKind::Iterate { unknowns: unknown_ids, count: self.scene.model.rounds };
+        let kind = BlockKind::Iterate { unknowns: unknown_ids, count };
         let operands: Vec<Scalar> = start.into_iter().chain(next).chain([residual]).collect();
         let mut outputs = self.g.block_outputs(kind, &operands).into_iter();
         let mut positions = Vec::with_capacity(unknowns.len());
@@ -207,8 +217,9 @@ impl Equations<'_> {
         [combined(&mut self.g, &columns, &factors, size), solve(self, size, matrix, second)]
     }
 
-    /// Unknowns of the steps behind this one, at zero.
-    fn later_unknowns(&self, step: &Step) -> Map {
+    /// Unknowns of the steps behind this one, at zero: they stand in its equations in form alone, as a point turned there and back,
+    /// so any value will do.
+    pub(super) fn later_unknowns(&self, step: &Step) -> Map {
         let behind = self.scene.structure.steps.iter().skip_while(|other| other.unknowns != step.unknowns).skip(1);
         let unknowns = behind.flat_map(|other| other.unknowns.iter().copied());
         let pairs: Vec<(Scalar, Scalar)> =
@@ -225,19 +236,6 @@ fn combined(g: &mut Graph, columns: &[Vec<Scalar>], factors: &[Scalar], size: us
         g.sum(&terms)
     };
     (0..size).map(row).collect()
-}
-
-/// The point of an angle after a step against this one, see above.
-fn turned_back(g: &mut Graph, [cos, sin]: [Scalar; 2], step: Scalar) -> [Scalar; 2] {
-    let half = g.decimal(0.5);
-    let h = g.mul(half, step);
-    let square = g.mul(h, h);
-    let length = g.add(Scalar::ONE, square);
-    let p = g.div(step, length);
-    let (by_cos, by_sin) = (g.mul(cos, h), g.mul(sin, h));
-    let (sideways, along) = (g.sub(sin, by_cos), g.add(cos, by_sin));
-    let (more, less) = (g.mul(p, sideways), g.mul(p, along));
-    [g.add(cos, more), g.sub(sin, less)]
 }
 
 /// The angle of a point that is less than half a turn from the one at which it was sought.

@@ -236,7 +236,7 @@ impl Equations<'_> {
         reduction: &mut Reduction,
     ) -> Result<Vec<Definition>, Vec<Complaint>> {
         match step.means {
-            Means::Linear(id) => Ok(self.coupling(id, step).into_iter().collect()),
+            Means::Linear(id) | Means::Explicit(id) => Ok(self.coupling(id, step).into_iter().collect()),
             Means::Solve(item) => {
                 let model = self.scene.model;
                 match &model.solves[item].how {
@@ -248,9 +248,13 @@ impl Equations<'_> {
         }
     }
 
-    /// What a linear coupling gives.
+    /// What an equation gives that its unknown stands in with a factor which no unknown has a part in.
     pub(in crate::mechanics) fn coupling(&mut self, id: ConstraintId, step: &Step) -> Option<Definition> {
-        let residual = self.equations_of(LoopClosure::Constraint(id));
+        let mut residual = self.equations_of(LoopClosure::Constraint(id));
+        if matches!(step.means, Means::Explicit(_)) {
+            let later = self.later_unknowns(step);
+            residual = self.g.substitute(&residual, &later).into();
+        }
         let (&residual, &unknown) = residual.first().zip(step.unknowns.first())?;
         let symbol = self.coordinate_symbols(unknown)[0];
         let slope = self.g.derivative(residual, &[(symbol, Scalar::ONE)]);

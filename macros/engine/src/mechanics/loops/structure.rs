@@ -146,6 +146,9 @@ pub struct Step {
 pub enum Means {
     /// A linear coupling, eliminated exactly: one unknown.
     Linear(ConstraintId),
+    /// An equation in which the one unknown stands alone, with a number as its factor: solved for it. All else that the equation
+    /// reads, earlier steps give.
+    Explicit(ConstraintId),
     /// By the `solve` item with this number in the model.
     Solve(usize),
     /// By Newton's method on these equations, as many as unknowns. The place of the first unknown in the guess.

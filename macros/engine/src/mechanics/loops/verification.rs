@@ -81,7 +81,7 @@ impl Equations<'_> {
         let structure = std::rc::Rc::clone(&self.scene.structure);
         let items = structure.steps.iter().filter_map(|step| match step.means {
             Means::Solve(item) => Some(&model.solves[item]),
-            Means::Linear(_) | Means::Newton { .. } => None,
+            Means::Linear(_) | Means::Explicit(_) | Means::Newton { .. } => None,
         });
         let chosen = items.filter_map(|item| match &item.how {
             SolveHow::From { branches, .. } if !branches.is_empty() => Some((item, branches)),

@@ -18,9 +18,9 @@ use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::constraints::{closings, coordinate_name};
 use crate::mechanics::loops::reduction::{Map, Reduction};
-use crate::mechanics::loops::structure::{Closed, Means, Modes, Role, Structure};
+use crate::mechanics::loops::structure::{Closed, Means, Modes, Role, Row, Structure};
 use crate::model::site::Sited;
-use crate::model::types::{Coordinate, JointId, Kinematics};
+use crate::model::types::{Coordinate, JointId, Kinematics, LoopClosure};
 use crate::solve::placement::{Alternative, Placed, Placement, Unplaced};
 use crate::solve::{KinematicLoop, Segment};
 use crate::symbolic::evaluate::{Evaluator, Real};
@@ -179,11 +179,14 @@ impl Equations<'_> {
         let mut unknowns = Vec::new();
         let mut rows = Vec::new();
         for step in &closure.steps {
-            let Means::Newton { rows: own, .. } = &step.means else {
-                return Err("a coupling of coordinates has a part in what legs hold".to_owned());
-            };
+            match &step.means {
+                Means::Newton { rows: own, .. } => rows.extend(own.iter().copied()),
+                Means::Explicit(id) => rows.push(Row { closing: LoopClosure::Constraint(*id), index: 0 }),
+                Means::Linear(_) | Means::Solve(_) => {
+                    return Err("a coupling of coordinates has a part in what legs hold".to_owned());
+                }
+            }
             unknowns.extend(step.unknowns.iter().copied());
-            rows.extend(own.iter().copied());
         }
         let symbols: Vec<(Coordinate, Scalar)> =
             unknowns.iter().map(|&c| (c, self.coordinate_symbols(c)[0].positive())).collect();

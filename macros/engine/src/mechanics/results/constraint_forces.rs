@@ -60,7 +60,9 @@ impl Equations<'_> {
                 Means::Linear(id) if self.is_seen_through(id) => {
                     rows.retain(|row| row.closing != LoopClosure::Constraint(id));
                 }
-                Means::Linear(_) | Means::Solve(_) | Means::Newton { .. } => unknowns.extend(&step.unknowns),
+                Means::Linear(_) | Means::Explicit(_) | Means::Solve(_) | Means::Newton { .. } => {
+                    unknowns.extend(&step.unknowns)
+                }
             }
         }
         rows.retain(|row| !structure.rows.contains(row));
