@@ -115,7 +115,7 @@ pub fn equilibrium<S: Differentiable>(
     free: &DisplacementOf<S>,
 ) -> Found<S, ()> {
     let found = Search::run(system, &Held(input), &Open, t, &resting::<S>(guess), (), &at_rest::<S>(free))?;
-    standing(system, t, closed(system, t, input, found)?)
+    closed(system, t, input, standing(system, t, found)?)
 }
 
 /// A steady motion near `guess` at the time `t` `[s]`: no accelerations and no rates of own states. What is free, of

@@ -28,11 +28,13 @@ pub enum EquilibriumError {
         /// Steps made.
         iterations: u32,
     },
-    /// The loops could not be closed near the guess, or move by themselves, so no state was met that could be at rest:
+    /// The loops could not be closed near the guess, or move by themselves, so no state was met that could be at rest; or they are open
+    /// where it was found, since what is free has opened them or they don't close for these parameters:
     /// [`assemble`](crate::assemble) tells more.
     Open {
         /// `[m]` or `[rad]` greatest residual of a position that is left, in the best of the states met, or, per second, of what
-        /// equations ask of velocities at rest.
+        /// equations ask of velocities at rest; where the state that was found is open, the residual of
+        /// [`System::opening`](crate::System::opening).
         gap: f64,
         /// Steps made.
         iterations: u32,

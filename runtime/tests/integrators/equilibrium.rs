@@ -6,7 +6,7 @@ use multibody::linear::least_norm;
 use multibody::nalgebra::{Vector1, Vector2, Vector3};
 use multibody::simba::simd::WideF64x4;
 use multibody::{
-    Constrained, Differentiable, EquilibriumError, Free, Jacobian, Pose, Real, System, Tangent, Twist,
+    Constrained, Differentiable, EquilibriumError, Free, Jacobian, Opening, Pose, Real, System, Tangent, Twist,
     constrained_equilibrium, equilibrium, trim,
 };
 
@@ -42,6 +42,47 @@ const PENDULUM: Pendulum<f64> = Pendulum { gravity: 9.81, friction: 0.5 };
 
 fn at(q: f64) -> Scalar<f64> {
     Scalar { q, v: 0.0 }
+}
+
+/// The same with a loop that is closed where it hangs and where it stands alone.
+struct Looped(Pendulum<f64>);
+
+impl System for Looped {
+    type Scalar = f64;
+    type State = Scalar<f64>;
+    type Input = f64;
+    fn derivative(&self, t: f64, s: &Scalar<f64>, moment: &f64) -> (f64, ()) {
+        self.0.derivative(t, s, moment)
+    }
+    fn position_rates(&self, _t: f64, s: &Scalar<f64>) -> f64 {
+        s.v
+    }
+    fn opening(&self, _t: f64, s: &Scalar<f64>, _: &f64) -> Opening<f64> {
+        Opening::of_equation(s.q.sin(), "loop")
+    }
+}
+
+impl Differentiable for Looped {
+    type Matrix = [[f64; 1]; 1];
+    fn jacobian(&self, t: f64, s: &Scalar<f64>, moment: &f64) -> Jacobian<[[f64; 1]; 1]> {
+        self.0.jacobian(t, s, moment)
+    }
+    fn input_derivative(&self, _t: f64, _: &Scalar<f64>, _: &f64, change: &f64) -> (f64, ()) {
+        (*change, ())
+    }
+}
+
+/// Accelerations vanish where a loop is open: that is no equilibrium.
+#[test]
+fn open_loops_are_told() {
+    let looped = Looped(PENDULUM);
+    let free = Free { input: 1.0, ..Free::default() };
+    assert!(equilibrium(&looped, 0.0, &at(0.3), &0.0, &1.0).is_ok());
+    assert!(trim(&looped, 0.0, &at(0.0), &0.0, &free).is_ok());
+    let told = equilibrium(&looped, 0.0, &at(0.3), &3.0, &1.0);
+    assert!(matches!(told, Err(EquilibriumError::Open { gap, .. }) if (gap - 3.0 / 9.81).abs() < 1e-12), "{told:?}");
+    let told = trim(&looped, 0.0, &at(0.5), &0.0, &free);
+    assert!(matches!(told, Err(EquilibriumError::Open { .. })), "{told:?}");
 }
 
 #[test]

@@ -1,10 +1,7 @@
 //! Whipple's bicycle against data that were computed without any library of the kind: accelerations, forces of contact, a motion.
 //! Source: `tests/data/rolling`, after Meijaard, Papadopoulos, Ruina and Schwab, Proc. R. Soc. A 463 (2007) 1955-1982.
 
-use multibody::{
-    Dop853, EquilibriumError, Free, Integrator, Projection, System, Tangent, WithProjection, equilibrium, multibody,
-    trim,
-};
+use multibody::{Dop853, Free, Integrator, Projection, System, Tangent, WithProjection, multibody, trim};
 use serde_json::Value;
 
 bicycle!(whipple, {
@@ -313,25 +310,4 @@ fn steady_turns() {
         let upwards: f64 = outputs.rear_force[2] + outputs.front_force[2];
         assert!((upwards.abs() - 94.0 * 9.81).abs() < 1e-8, "{upwards}");
     }
-}
-
-/// A model whose loops hold by multipliers moves along them alone: what is free here would open them, and that is told.
-#[test]
-fn nothing_is_found_with_open_loops() {
-    let model = Model::<f64>::default();
-    let mut guess = State::<f64>::default();
-    guess.q.roll = 0.2;
-    let mut ones = Velocity::zero().map(&mut |_: f64| 1.0);
-    let told = equilibrium(&model, 0.0, &guess, &Input::default(), &ones);
-    assert!(matches!(told, Err(EquilibriumError::Open { .. } | EquilibriumError::Singular { .. })), "{told:?}");
-    guess.v.spin_rear = -5.0;
-    ones.spin_rear = 0.0;
-    let free = Free {
-        position: ones,
-        velocity: Velocity::zero(),
-        states: (),
-        input: Input { lean: 1.0, turn: 1.0, pedal: 1.0 },
-    };
-    let told = trim(&model, 0.0, &guess, &Input::default(), &free);
-    assert!(matches!(told, Err(EquilibriumError::Open { .. } | EquilibriumError::Singular { .. })), "{told:?}");
 }

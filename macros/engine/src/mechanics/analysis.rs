@@ -403,8 +403,8 @@ impl<'m> Analysis<'m> {
                 Means::Newton { .. } => format!("found by Newton's method: {unknowns}"),
             });
         }
-        let newton = structure.steps.iter().any(|step| matches!(step.means, Means::Newton { .. }));
-        if newton && self.model.independent.is_empty() {
+        let chosen = structure.steps.iter().any(|step| matches!(step.means, Means::Newton { .. } | Means::Explicit(_)));
+        if chosen && self.model.independent.is_empty() {
             structure.notes.push(format!("independent coordinates: {}", names(&structure.state)));
         }
     }

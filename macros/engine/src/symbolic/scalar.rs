@@ -299,7 +299,7 @@ impl Graph {
         self.insert_scalar(ScalarNode::Sqrt(x), print)
     }
 
-    /// Whether a node is one of those that are there whatever else is made of them, or a product of such.
+    /// Whether a node costs nothing or is there whatever else is made: a number, a symbol, a sine, a result, or one product of such.
     pub(super) fn is_at_hand(&self, s: Scalar) -> bool {
         match self.node(s) {
             ScalarNode::Literal(_) | ScalarNode::Symbol(_) | ScalarNode::Sin(_) | ScalarNode::Cos(_) => true,

@@ -421,6 +421,18 @@ fn what_stands_alone_is_solved_for() {
     assert_eq!(of("constraint e = a * b + cos(c) - 0.5;", ", independent: [a, c]"), newton("newton 0: b"));
     assert_eq!(of("param k = 2.0; constraint e = k * b + cos(c);", ", independent: [a, c]"), newton("newton 0: b"));
     assert_eq!(of("constraint e = b + 0.1 * sin(b) + cos(c);", ", independent: [a, c]"), newton("newton 0: b"));
+    // Slopes that don't change, of what is not affine: steps, choices, angles that wrap around.
+    for text in [
+        "constraint e = b + 0.1 * signum(b - 0.3) - sin(a) - cos(c);",
+        "constraint e = b + select(b > 0.3, 0.1, -0.1) - sin(a) - cos(c);",
+        "constraint e = b + atan2(sin(b), cos(b)) - sin(a) - cos(c);",
+    ] {
+        assert_eq!(of(text, ", independent: [a, c]"), newton("newton 0: b"), "{text}");
+    }
+    let (all, _) = of("constraint e = b + 0.1 * signum(b - 0.3) - a;", ", independent: [a, c]");
+    assert_eq!(all, ["newton 0: b"]);
+    let (all, _) = of("constraint e = b - 0.1 * a;", ", independent: [a, c]");
+    assert_eq!(all, ["linear: b"]);
     // A coupling puts the coordinate there too.
     let (all, guesses) = of("constraint l = a - 3.0 * b; constraint e = b + sin(a) + cos(c);", ", independent: [c]");
     assert_eq!((all.len(), guesses), (2, 1), "{all:?}");

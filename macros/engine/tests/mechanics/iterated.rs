@@ -393,6 +393,31 @@ fn what_stands_alone() {
     check(&FLOATER, 1e-10);
 }
 
+/// From guesses that are off by half a radian or half a metre.
+#[test]
+fn far_off_guesses_with_one_unknown() {
+    let mut random = Random(71);
+    for mechanism in [&FOLLOWER, &RIDER] {
+        let formulation = "formulation { constraints: Reduced, independent: [shaft] } emit forward_dynamics;";
+        let case = case_with(mechanism.parts, &format!("{} {formulation}", mechanism.body));
+        let (programs, guessed) = (Programs::of(&case), case.structure.guessed());
+        let (mut open, mut tried) = (0, 0);
+        for closed in &case.structure.closed {
+            let number = |coordinate: Coordinate| closed.value(&case.model, coordinate).expect("a number");
+            let mut values: Values = case.structure.state.iter().map(|&c| (position(c), number(c))).collect();
+            for _ in 0..20 {
+                let off = guessed.iter().map(|&c| number(c) + 0.5 * random.next());
+                values.extend((0..).map(|index| Symbol::Guess { index }).zip(off));
+                let residual = programs.eval(FunctionKind::Guess, &values)[guessed.len()];
+                open += usize::from(residual.is_nan() || residual > 1e-11);
+                tried += 1;
+            }
+        }
+        println!("{}: {open} of {tried} open", mechanism.name);
+        assert!(10 * open <= tried, "{}: {open} of {tried}", mechanism.name);
+    }
+}
+
 /// What a round leaves of half the error is an eighth of what it leaves of the whole.
 #[test]
 fn rounds_with_one_unknown_are_of_third_order() {
@@ -426,6 +451,10 @@ fn rounds_with_one_unknown_are_of_third_order() {
                 let (whole, half) = (left(off), left(0.5 * off));
                 println!("{}, {k}: {whole:.1e} and {half:.1e} of {off}", mechanism.name);
                 assert!(whole < 40.0 * off.abs().powi(3), "{}", mechanism.name);
+                // A parabola is solved at once.
+                if whole < 1e-14 {
+                    continue;
+                }
                 assert!((6.0..10.7).contains(&(whole / half)), "{}: {}", mechanism.name, whole / half);
             }
         }

@@ -80,6 +80,34 @@ fn sines_and_cosines_of_given_angles() {
     }
 }
 
+/// An iteration gives the point (c, s), and what it has turned by since its guess as an angle: sums with the guess and others are turns of
+/// that point, and no sine is taken of anything but the others.
+#[test]
+fn guesses_and_turns_are_one_point() {
+    for (factor, sign) in [(1, 1), (3, 1), (1, -1), (-2, -1)] {
+        let mut g = Graph::new();
+        let [c, s, guess, other] = [(); 4].map(|()| g.symbol());
+        let (cos, sin) = (g.cos(guess), g.sin(guess));
+        let products = [g.mul(c, cos), g.mul(s, sin), g.mul(s, cos), -g.mul(c, sin)];
+        let (along, across) = (g.sum(&products[..2]), g.sum(&products[2..]));
+        let turned = g.angle(along, across);
+        let found = g.add(guess, turned);
+        let factor = g.integer(factor);
+        let more = g.mul(factor, other);
+        let angle = g.add(if sign < 0 { -found } else { found }, more);
+        let (cos, sin) = (g.cos(angle), g.sin(angle));
+        for index in g.reachable_scalars(&[cos, sin]) {
+            if let ScalarNode::Sin(x) | ScalarNode::Cos(x) = *g.node(g.scalar_at(index)) {
+                assert!(!g.depends_on(x, &[guess]), "{factor:?}, {sign}");
+            }
+        }
+        let at = [0.6_f64.cos(), 0.6_f64.sin(), 0.4, -1.3];
+        let angle = f64::from(sign) * 0.6 + g.literal(factor).unwrap().value() * -1.3;
+        let got = values(&g, &[cos, sin], &at);
+        assert!((got[0] - angle.cos()).abs() + (got[1] - angle.sin()).abs() < 1e-14, "{got:?} of {angle}");
+    }
+}
+
 #[test]
 fn given_angles_fold() {
     let mut g = Graph::new();

@@ -11,7 +11,7 @@ use crate::mechanics::loops::constraints::Writing;
 use crate::mechanics::loops::constraints::turns::Turns;
 use crate::mechanics::translate::symbols::has_quaternion;
 use crate::model::types::{ConstraintId, ConstraintKind, Coordinate, LoopClosure, Model};
-use crate::symbolic::graph::ScalarNode;
+use crate::symbolic::graph::{Scalar, ScalarNode};
 use crate::symbolic::lower::Lowering;
 
 use super::super::equations::Equations;
@@ -67,7 +67,8 @@ fn coupling(e: &mut Equations<'_>, model: &Model, constraint: ConstraintId) -> O
         terms.push((coordinate, gives));
     }
     terms.sort_unstable();
-    (!terms.is_empty()).then_some(Coupling { constraint, terms })
+    let coordinates: Vec<Coordinate> = terms.iter().map(|term| term.0).collect();
+    (!terms.is_empty() && is_affine(e, residual, &coordinates)).then_some(Coupling { constraint, terms })
 }
 
 /// Whether a constraint reads a coordinate with a number as its factor, whatever it does with all others.
@@ -81,14 +82,32 @@ pub(super) fn stands_alone(model: &Model, constraint: ConstraintId, coordinate: 
         return false;
     }
     let residuals = e.residuals(LoopClosure::Constraint(constraint), Writing::PLAIN);
-    let slopes = e.partial(&residuals, coordinate);
+    let (&[residual], [slope]) = (&residuals[..], &e.partial(&residuals, coordinate)[..]) else { return false };
     let mut lowering = Lowering::new(&e.g);
-    let slopes = lowering.run(&slopes);
-    matches!(slopes[..], [slope] if lowering.to.literal(slope).is_some_and(|n| n.value() != 0.0))
+    let slopes = lowering.run(&[*slope]);
+    let is_number = slopes.iter().all(|&slope| lowering.to.literal(slope).is_some_and(|n| n.value() != 0.0));
+    is_number && is_affine(&mut e, residual, &[coordinate])
+}
+
+/// Whether an equation is what it is with some coordinates at zero, and these times their slopes there: a slope that does not change is not
+/// enough, since steps, choices and angles that wrap around have such too.
+fn is_affine(e: &mut Equations<'_>, residual: Scalar, coordinates: &[Coordinate]) -> bool {
+    let symbols: Vec<Scalar> = coordinates.iter().map(|&coordinate| e.coordinate_symbols(coordinate)[0]).collect();
+    let zeros = e.map(&symbols.iter().map(|&symbol| (symbol, Scalar::ZERO)).collect::<Vec<_>>());
+    let mut terms = e.g.substitute(&[residual], &zeros);
+    for (&coordinate, &symbol) in coordinates.iter().zip(&symbols) {
+        let slopes = e.partial(&[residual], coordinate);
+        let slopes = e.g.substitute(&slopes, &zeros);
+        terms.extend(slopes.iter().map(|&slope| e.g.mul(slope, symbol)));
+    }
+    terms.push(-residual);
+    let mut lowering = Lowering::new(&e.g);
+    let lowered = lowering.run(&terms);
+    lowering.to.sum(&lowered) == Scalar::ZERO
 }
 
 /// Components of positions that a scalar depends on.
-fn positions(e: &Equations<'_>, s: crate::symbolic::graph::Scalar) -> Vec<(crate::model::types::JointId, usize)> {
+fn positions(e: &Equations<'_>, s: Scalar) -> Vec<(crate::model::types::JointId, usize)> {
     let reachable = e.g.reachable_scalars(&[s]);
     let symbol = |index: usize| match e.g.node(e.g.scalar_at(index)) {
         ScalarNode::Symbol(id) => match e.scene.symbols.table.get(id.0) {

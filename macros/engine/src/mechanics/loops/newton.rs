@@ -14,7 +14,7 @@ use std::collections::HashSet;
 
 use crate::contracts::call::Call;
 use crate::contracts::symbol::Symbol;
-use crate::invariant::fault::OrFault;
+use crate::invariant::fault::{OrFault, raise};
 use crate::mechanics::equations::Equations;
 use crate::mechanics::translate::names;
 use crate::symbolic::differentiate::Differentiator;
@@ -138,7 +138,7 @@ impl Equations<'_> {
                 let curvature = self.g.derivative(matrix[0], &[(unknown.symbol, Scalar::ONE)]);
                 let curvature = self.g.substitute(&[curvature], &map)[0];
                 let moving = Move::of_third_order(&mut self.g, [value, slope, curvature], unknown.point.is_some());
-                (steps::rounds_of_third_order(rounds), vec![moving])
+                (rounds.div_ceil(2), vec![moving])
             }
             _ => {
                 let found = self.eliminate(unknowns.len(), &entries, &values);
@@ -155,11 +155,12 @@ impl Equations<'_> {
                     start.extend([self.g.cos(unknown.start), self.g.sin(unknown.start)]);
                     next.extend(steps::turned_back(&mut self.g, point, [sin, versine]));
                 }
-                (_, Move::Shift(by) | Move::Turn { sin: by, .. }) => {
+                (None, Move::Shift(by)) => {
                     symbols.push(unknown.inner);
                     start.push(unknown.start);
                     next.push(self.g.sub(unknown.inner, by));
                 }
+                (Some(_), Move::Shift(_)) | (None, Move::Turn { .. }) => raise("a point turns, and a number shifts"),
             }
         }
         let unknown_ids = symbols.iter().filter_map(|&s| self.g.symbol_id(s)).collect();
@@ -180,7 +181,16 @@ impl Equations<'_> {
             };
             positions.push(self.g.name(position, || name.clone()));
         }
-        (positions, outputs.next().or_fault("an iteration has a residual"))
+        let residual = outputs.next().or_fault("an iteration has a residual");
+        if let ([unknown], [position], [equation]) = (unknowns, &positions[..], equations) {
+            // What the last of few rounds leaves says more than what it began with, and costs nothing where nobody asks.
+            let mut map = known.clone();
+            map.extend(self.map(&[(unknown.symbol, *position)]));
+            let value = self.g.substitute(&[*equation], &map)[0];
+            let left = self.g.call(Call::Abs, &[value]);
+            return (positions, left);
+        }
+        (positions, residual)
     }
 
     /// Rates and accelerations from right-hand sides that are linear in what is known of them. Where few velocities are known,

@@ -236,7 +236,15 @@ impl Equations<'_> {
         reduction: &mut Reduction,
     ) -> Result<Vec<Definition>, Vec<Complaint>> {
         match step.means {
-            Means::Linear(id) | Means::Explicit(id) => Ok(self.coupling(id, step).into_iter().collect()),
+            Means::Linear(id) => Ok(self.coupling(id, step).into_iter().collect()),
+            Means::Explicit(id) => {
+                // As for an iteration: couplings go with the unknown, and what stands in form alone goes.
+                let residuals = self.equations_of(LoopClosure::Constraint(id));
+                let residuals = self.g.substitute(&residuals, &reduction.coupled);
+                let later = self.later_unknowns(step);
+                let residuals = self.g.substitute(&residuals, &later);
+                Ok(self.affine(&residuals, step).into_iter().collect())
+            }
             Means::Solve(item) => {
                 let model = self.scene.model;
                 match &model.solves[item].how {
@@ -248,14 +256,15 @@ impl Equations<'_> {
         }
     }
 
-    /// What an equation gives that its unknown stands in with a factor which no unknown has a part in.
+    /// What a linear coupling gives.
     pub(in crate::mechanics) fn coupling(&mut self, id: ConstraintId, step: &Step) -> Option<Definition> {
-        let mut residual = self.equations_of(LoopClosure::Constraint(id));
-        if matches!(step.means, Means::Explicit(_)) {
-            let later = self.later_unknowns(step);
-            residual = self.g.substitute(&residual, &later).into();
-        }
-        let (&residual, &unknown) = residual.first().zip(step.unknowns.first())?;
+        let residuals = self.equations_of(LoopClosure::Constraint(id));
+        self.affine(&residuals, step)
+    }
+
+    /// What an equation gives that is affine in its unknown, with a factor in which no unknown has a part.
+    fn affine(&mut self, residuals: &[Scalar], step: &Step) -> Option<Definition> {
+        let (&residual, &unknown) = residuals.first().zip(step.unknowns.first())?;
         let symbol = self.coordinate_symbols(unknown)[0];
         let slope = self.g.derivative(residual, &[(symbol, Scalar::ONE)]);
         let off = self.map(&[(symbol, Scalar::ZERO)]);
