@@ -159,7 +159,7 @@ fn chosen_speeds_are_no_dearer() {
     }
     let found = in_speeds();
     let of = |name: &str| found.iter().find(|row| row.model == name).unwrap();
-    for name in ["rigid_body", "floating_body", "top", "two_limbs", "three_limbs"] {
+    for name in ["rigid_body", "floating_body", "two_limbs", "three_limbs"] {
         assert!(flops(&of(name).in_speeds) < flops(&of(name).in_rates), "{name}");
     }
 }

@@ -150,10 +150,10 @@ impl Equations<'_> {
         let (mut symbols, mut start, mut next) = (Vec::new(), Vec::new(), Vec::new());
         for (unknown, moving) in unknowns.iter().zip(moves) {
             match (unknown.point, moving) {
-                (Some(point), Move::Turn { sin, versine }) => {
+                (Some(point), Move::Turn { w, m, n }) => {
                     symbols.extend(point);
                     start.extend([self.g.cos(unknown.start), self.g.sin(unknown.start)]);
-                    next.extend(steps::turned_back(&mut self.g, point, [sin, versine]));
+                    next.extend(steps::turned_back(&mut self.g, point, [w, m, n]));
                 }
                 (None, Move::Shift(by)) => {
                     symbols.push(unknown.inner);

@@ -4,7 +4,7 @@
 //!
 //! Several unknowns move by Newton's step d, J d = f. An angle that is iterated as a point turns by twice the angle whose tangent
 //! is t = d/2 (Cayley): that is d but for its cube, so convergence stays quadratic, and a step from far off stays below half a turn.
-//! It takes no sines: sin = 2 t / (1 + t^2), 1 - cos = 2 t^2 / (1 + t^2).
+//! It takes no sines: with w = d / (1 + t^2), sin = w and 1 - cos = w t.
 //!
 //! **One unknown** has one second derivative, which costs little beside what the first one shares with it, while rounds follow
 //! each other and cannot be worked out side by side. So its rounds are of third order, and half as many. They solve the equation that
@@ -30,8 +30,8 @@ use crate::symbolic::graph::{Graph, Scalar};
 pub(super) enum Move {
     /// Of a number.
     Shift(Scalar),
-    /// Of a point on the circle: the sine of the angle by which it is turned back, and one less its cosine.
-    Turn { sin: Scalar, versine: Scalar },
+    /// Of a point on the circle, turned back by the angle with sin = w m, 1 - cos = w n.
+    Turn { w: Scalar, m: Scalar, n: Scalar },
 }
 
 impl Move {
@@ -44,8 +44,7 @@ impl Move {
         let h = g.mul(half, step);
         let square = g.mul(h, h);
         let length = g.add(Scalar::ONE, square);
-        let sin = g.div(step, length);
-        Move::Turn { sin, versine: g.mul(sin, h) }
+        Move::Turn { w: g.div(step, length), m: Scalar::ONE, n: h }
     }
 
     /// By the step of third order, of f and its two derivatives.
@@ -68,7 +67,7 @@ impl Move {
         let (value_square, m_square) = (g.mul(value, value), g.mul(m, m));
         let length = g.add(value_square, m_square);
         let w = quotient(g, twice, length);
-        Move::Turn { sin: g.mul(w, m), versine: g.mul(w, value) }
+        Move::Turn { w, m, n: value }
     }
 }
 
@@ -82,9 +81,10 @@ fn quotient(g: &mut Graph, x: Scalar, by: Scalar) -> Scalar {
     g.div(x, sound)
 }
 
-/// The point of an angle that is turned back.
-pub(super) fn turned_back(g: &mut Graph, [cos, sin]: [Scalar; 2], [turn_sin, versine]: [Scalar; 2]) -> [Scalar; 2] {
-    let products = [g.mul(turn_sin, sin), g.mul(versine, cos), g.mul(turn_sin, cos), g.mul(versine, sin)];
+/// A point that is turned back: c + w (m s - n c), s - w (m c + n s). What w is multiplied with doesn't wait for its division.
+pub(super) fn turned_back(g: &mut Graph, [cos, sin]: [Scalar; 2], [w, m, n]: [Scalar; 3]) -> [Scalar; 2] {
+    let products = [g.mul(m, sin), g.mul(n, cos), g.mul(m, cos), g.mul(n, sin)];
     let (more, less) = (g.sub(products[0], products[1]), g.add(products[2], products[3]));
+    let (more, less) = (g.mul(w, more), g.mul(w, less));
     [g.add(cos, more), g.sub(sin, less)]
 }
