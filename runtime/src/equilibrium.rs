@@ -106,7 +106,8 @@ pub type Found<S, U> = Result<Equilibrium<<S as System>::State, U, <S as System>
 /// example.
 ///
 /// # Errors
-/// See [`EquilibriumError`]; one is given if any lane fails, or if loops that hold by multipliers are open where accelerations vanish.
+/// See [`EquilibriumError`]; one is given if any lane fails, or if loops are open where accelerations vanish: by what is free, if they hold by
+/// multipliers, or since an iteration has not converged.
 pub fn equilibrium<S: Differentiable>(
     system: &S,
     t: S::Scalar,
@@ -127,7 +128,8 @@ pub fn equilibrium<S: Differentiable>(
 /// its place, so constraints are to be solved (`constraints: Reduced`).
 ///
 /// # Errors
-/// See [`EquilibriumError`]; one is given if any lane fails, or if what is free opens loops that hold by multipliers.
+/// See [`EquilibriumError`]; one is given if any lane fails, or if loops are open in the end: by what is free, if they hold by
+/// multipliers, or since an iteration has not converged.
 pub fn trim<S: Differentiable>(
     system: &S,
     t: S::Scalar,

@@ -129,7 +129,7 @@ pub mod item {
         /// Coordinates that stay in the state.
         pub independent: List,
         /// Rounds of Newton's method where it closes loops: 6, or what is written here. Each doubles the digits of the guess. What is
-        /// found alone takes half as many, which triple them.
+        /// found alone takes 3, or as many as reach the same order, which triple them.
         pub rounds: Scalar,
         /// Whether limbs that are alike are computed four at a time: `Off` or `Four`.
         pub packs: super::packs::Four,

@@ -267,8 +267,7 @@ fn small_motions() {
 }
 
 /// Round in circles: the lean and the moments at handlebar and pedals that hold a steer angle and a speed, found while the place, the
-/// heading and the wheels' angles run. The motion keeps them, on a circle for each contact; and the forces of both contacts are what
-/// Newton's second law asks of all masses on their circles.
+/// heading and the wheels' angles run. The motion keeps them, about a centre that stays; what both contacts carry is the weight.
 #[test]
 fn steady_turns() {
     let model = reduced::Model::<f64>::default();

@@ -36,10 +36,10 @@ impl Shared {
     pub fn own(g: &mut Graph, tree: &Tree) -> Shared {
         let mut tree = tree.clone();
         let mut turns = vec![Rotation::IDENTITY; tree.links.len()];
-        for index in 0..tree.links.len() {
+        for (index, turn) in turns.iter_mut().enumerate() {
             if let Some(axis) = symmetric_end(&tree, index) {
                 let link = &mut tree.links[index];
-                turns[index] = g.axis_rotation(axis, link.q);
+                *turn = g.axis_rotation(axis, link.q);
                 link.q = Scalar::ZERO;
             }
         }

@@ -20,7 +20,7 @@ use super::items::solves::SolveItem;
 use super::topology::Topology;
 use super::types::{
     Bodies, Body, Constraint, Coordinate, Drive, Expr, Force, Handling, Input, Joint, Joints, Kinematics, Model,
-    Output, Packs, Param, ROUNDS, Request, Solve, Speed, State, Type,
+    Output, Packs, Param, Request, Solve, Speed, State, Type,
 };
 use super::units::Units;
 
@@ -134,7 +134,7 @@ impl<'a> Checker<'a, '_> {
             solves: loops.solves,
             assumptions: all(collected.assumptions)?,
             handling: collected.handling.unwrap_or_default(),
-            rounds: collected.rounds.unwrap_or(ROUNDS),
+            rounds: collected.rounds,
             packs: collected.packs.unwrap_or_default(),
             speeds: all(collected.speeds)?,
             chooses_speeds: collected.chooses_speeds.is_some(),
@@ -179,7 +179,7 @@ impl<'a> Checker<'a, '_> {
             solves: Vec::new(),
             assumptions: Vec::new(),
             handling: Handling::default(),
-            rounds: ROUNDS,
+            rounds: None,
             packs: Packs::default(),
             speeds: Vec::new(),
             chooses_speeds: false,

@@ -78,8 +78,8 @@ pub struct Model {
     /// Conditions (`Bool`) that the user vouches for.
     pub assumptions: Vec<Expr>,
     pub handling: Handling,
-    /// Of Newton's method.
-    pub rounds: usize,
+    /// Of Newton's method, if the model names a number.
+    pub rounds: Option<usize>,
     pub packs: Packs,
     /// Velocity coordinates of the user's choice, in source order.
     pub speeds: Vec<Speed>,
@@ -235,10 +235,6 @@ pub enum LoopClosure {
     Cut(JointId),
     Constraint(ConstraintId),
 }
-
-/// Rounds of Newton's method where the model names none: from the solution of the last step three take it to rounding; a few more
-/// serve coarse guesses. The residual tells whether they were enough.
-pub const ROUNDS: usize = 6;
 
 /// What becomes of constraint equations.
 #[derive(Clone, Default)]

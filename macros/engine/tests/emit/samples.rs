@@ -83,7 +83,7 @@ pub fn empty(module: &str) -> Model {
         solves: Vec::new(),
         assumptions: Vec::new(),
         handling: Handling::default(),
-        rounds: 6,
+        rounds: None,
         packs: Packs::default(),
         speeds: Vec::new(),
         chooses_speeds: false,

@@ -1,7 +1,7 @@
 //! Stage `mechanics`: linear couplings between coordinates.
 //!
 //! In: constraints that a user wrote. Out: those that are proven linear (no derivative by a coordinate depends on a
-//! position), and for each the coordinate that it gives. Gears, racks and mimics are of this kind: they are eliminated
+//! position, and these times the coordinates are all that it reads of them), and for each the coordinate that it gives. Gears, racks and mimics are of this kind: they are eliminated
 //! exactly, whatever becomes of the other equations.
 
 use std::collections::HashSet;

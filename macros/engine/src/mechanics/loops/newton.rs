@@ -25,6 +25,12 @@ use super::reduction::{Definition, Map, Newton, Reduction};
 use super::structure::{Means, Step};
 use steps::Move;
 
+/// Rounds where the model asks for none: of Newton's method, which three take to rounding from the solution of the last step; a few more
+/// serve coarse guesses. The residual tells whether they were enough.
+const ROUNDS: usize = 6;
+/// ..and of third order.
+const ROUNDS_ALONE: usize = 3;
+
 /// An unknown of an iteration.
 struct Unknown {
     /// Its position on the tree.
@@ -138,13 +144,13 @@ impl Equations<'_> {
                 let curvature = self.g.derivative(matrix[0], &[(unknown.symbol, Scalar::ONE)]);
                 let curvature = self.g.substitute(&[curvature], &map)[0];
                 let moving = Move::of_third_order(&mut self.g, [value, slope, curvature], unknown.point.is_some());
-                (rounds.div_ceil(2), vec![moving])
+                (rounds.map_or(ROUNDS_ALONE, steps::of_third_order), vec![moving])
             }
             _ => {
                 let found = self.eliminate(unknowns.len(), &entries, &values);
                 let moves = unknowns.iter().zip(found);
                 let moves = moves.map(|(unknown, by)| Move::by(&mut self.g, by, unknown.point.is_some())).collect();
-                (rounds, moves)
+                (rounds.unwrap_or(ROUNDS), moves)
             }
         };
         let (mut symbols, mut start, mut next) = (Vec::new(), Vec::new(), Vec::new());
@@ -183,7 +189,7 @@ impl Equations<'_> {
         }
         let residual = outputs.next().or_fault("an iteration has a residual");
         if let ([unknown], [position], [equation]) = (unknowns, &positions[..], equations) {
-            // What the last of few rounds leaves says more than what it began with, and costs nothing where nobody asks.
+            // What the last of few rounds leaves says more than what it began with.
             let mut map = known.clone();
             map.extend(self.map(&[(unknown.symbol, *position)]));
             let value = self.g.substitute(&[*equation], &map)[0];

@@ -147,7 +147,7 @@ pub enum Means {
     /// A linear coupling, eliminated exactly: one unknown.
     Linear(ConstraintId),
     /// An equation in which the one unknown stands alone, with a number as its factor: solved for it. All else that the equation
-    /// reads, earlier steps give.
+    /// reads is in the state or driven, or earlier steps give it.
     Explicit(ConstraintId),
     /// By the `solve` item with this number in the model.
     Solve(usize),

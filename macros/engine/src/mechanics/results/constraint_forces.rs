@@ -61,7 +61,7 @@ impl Equations<'_> {
                     rows.retain(|row| row.closing != LoopClosure::Constraint(id));
                 }
                 Means::Linear(_) | Means::Explicit(_) | Means::Solve(_) | Means::Newton { .. } => {
-                    unknowns.extend(&step.unknowns)
+                    unknowns.extend(&step.unknowns);
                 }
             }
         }
