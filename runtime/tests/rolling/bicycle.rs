@@ -39,7 +39,7 @@ macro_rules! bicycle {
                 body leaning { mass: 0 }
                 body frame { mass: m_frame, com: [x_frame, 0, z_frame + r_rear], inertia: inertia(ixx_b, iyy_b, izz_b, 0, ixz_b, 0) }
                 body rear { mass: m_rear, inertia: diag(ixx_r, iyy_r, ixx_r) }
-                body fork { mass: m_fork, com: [x_fork - w - c, 0, z_fork + r_front], inertia: inertia(ixx_h, iyy_h, izz_h, 0, ixz_h, 0) }
+                body fork { mass: m_fork, com: [x_fork - w - c, 0, z_fork], inertia: inertia(ixx_h, iyy_h, izz_h, 0, ixz_h, 0) }
                 body front { mass: m_front, inertia: diag(ixx_f, iyy_f, ixx_f) }
                 joint x: Prismatic { parent: ground, child: ahead, axis: X }
                 joint y: Prismatic { parent: ahead, child: aside, axis: Y }
