@@ -109,10 +109,18 @@ impl Subject<'_> {
         self.compare_roots(states, state, 0..count, usize::MAX, closely)
     }
 
-    /// What iterations leave, where they have left something: after one round from a guess at which loops are open.
+    /// What iterations leave, where they have left something: after one round from a guess at which loops are open. A round of third order
+    /// may leave rounding alone, and what it leaves is evaluated behind it: at the guess that tells as much.
     pub(super) fn compare_residual(&self, states: &States<'_>, state: &State) -> Verdict {
         let count = self.tape.roots.len();
-        self.compare_roots(states, state, count.saturating_sub(1)..count, 1, &mut 0)
+        let after = |rounds| self.compare_roots(states, state, count.saturating_sub(1)..count, rounds, &mut 0);
+        let verdict = after(1);
+        if !matches!(verdict, Verdict::Unclear(_)) {
+            return verdict;
+        }
+        // Of an iteration with several unknowns nothing is known before its first round, which is no evidence.
+        let at_guess = Trace::<Doubled>::rounds(self.tape, &|id| state.value(id), 0).roots();
+        if at_guess.last().is_some_and(|residual| residual.high != 0.0) { after(0) } else { verdict }
     }
 
     /// What tells that parameters open a loop, where they do. Closed forms rest on all equations there are, and what follows from
