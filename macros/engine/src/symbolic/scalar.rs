@@ -276,7 +276,7 @@ impl Graph {
         self.insert_scalar(ScalarNode::Reciprocal(node), inverse).flip_if(x.is_negative())
     }
 
-    /// The root that is not negative: of a square |y|, where y is something that is there anyway, as a sine's cosine.
+    /// The root that is not negative; |y| of the square of a y that is at hand, such as 1 - sin^2.
     pub fn sqrt(&mut self, x: Scalar) -> Scalar {
         if x == Scalar::ZERO || x == Scalar::ONE {
             return x;

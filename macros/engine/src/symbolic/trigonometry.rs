@@ -111,8 +111,8 @@ impl Graph {
         Some((cos, sin))
     }
 
-    /// Which unit makes of a given point one whose cosine and sine are there anyway, and that one: an iteration starts at a guess, and what
-    /// it has turned by since is given beside its result.
+    /// The unit that, added to a given point, makes one whose cosine and sine are at hand, and that point. An iteration gives both its
+    /// result and how far that is turned from the guess: guess and turn together are the result.
     fn known_sum(
         &self,
         (c, s, times): (Scalar, Scalar, i64),

@@ -109,8 +109,8 @@ impl Subject<'_> {
         self.compare_roots(states, state, 0..count, usize::MAX, closely)
     }
 
-    /// What iterations leave, where they have left something: after one round from a guess at which loops are open. A round of third order
-    /// may leave rounding alone, and what it leaves is evaluated behind it: at the guess that tells as much.
+    /// What iterations leave, where they have left something: after one round from a guess at which loops are open. A single round of third
+    /// order may leave nothing but rounding; its residual is evaluated after the loop, so it can be compared at the guess instead.
     pub(super) fn compare_residual(&self, states: &States<'_>, state: &State) -> Verdict {
         let count = self.tape.roots.len();
         let after = |rounds| self.compare_roots(states, state, count.saturating_sub(1)..count, rounds, &mut 0);
@@ -118,7 +118,7 @@ impl Subject<'_> {
         if !matches!(verdict, Verdict::Unclear(_)) {
             return verdict;
         }
-        // Of an iteration with several unknowns nothing is known before its first round, which is no evidence.
+        // An iteration with several unknowns has no residual before its first round: the zero that stands there is no evidence.
         let at_guess = Trace::<Doubled>::rounds(self.tape, &|id| state.value(id), 0).roots();
         if at_guess.last().is_some_and(|residual| residual.high != 0.0) { after(0) } else { verdict }
     }
