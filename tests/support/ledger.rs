@@ -120,6 +120,10 @@ pub fn entries() -> Vec<Entry> {
             add(vec![model], false, "momenta", &MOMENTA);
         }
     }
+    // On wheels, with equations of velocities that are eliminated and that are kept.
+    for call in calls("models/rolling.rs") {
+        add(models(call), true, "bicycle", &[]);
+    }
     for call in ["models/required.rs", "models/quadruped.rs"].into_iter().flat_map(calls) {
         add(models(call), false, "", &[]);
     }
