@@ -16,6 +16,7 @@ bicycle!(reduced, {
         spin_rear.accel, steer.accel, spin_front.accel
     ];
     output place = [x, y, z, yaw, roll, pitch, spin_rear, steer, spin_front];
+    output momentum = linear_momentum();
     formulation { constraints: Reduced, independent: [roll, steer, spin_rear] }
     emit forward_dynamics, mass_matrix, bias, derivatives, energy;
 });
@@ -305,8 +306,12 @@ fn steady_turns() {
             let moved = (ax - bx).hypot(ay - by) * yaw_rate.abs() / speed;
             assert!(moved < 1e-7, "{steer}: the centre moves by {moved:e} of the radius");
         }
-        // What both wheels push upwards carries the weight.
-        let upwards: f64 = outputs.rear_force[2] + outputs.front_force[2];
-        assert!((upwards.abs() - 94.0 * 9.81).abs() < 1e-8, "{upwards}");
+        // What both contacts and the weight do turns the momentum with the heading, about the axis that points downwards.
+        let [px, py, _] = outputs.momentum.into();
+        let wanted = [-yaw_rate * py, yaw_rate * px, -94.0 * 9.81];
+        let forces = outputs.rear_force + outputs.front_force;
+        for (found, wanted) in forces.iter().zip(wanted) {
+            assert!((found - wanted).abs() < 1e-8, "{found} instead of {wanted}");
+        }
     }
 }
