@@ -63,11 +63,13 @@ impl Machine<'_> {
                     local.iter().for_each(|&local| self.set(local, value));
                 }
             }
-            Statement::Solve { matrix, rhs, results, .. } => {
-                let (matrix, rhs) = (self.values(matrix), self.values(rhs));
-                for (&local, x) in results.iter().zip(solve_f64(&matrix, &rhs)) {
-                    self.set(local, x);
-                }
+            Statement::Solve { symmetric, groups, matrix, rhs, measures, results, .. } => {
+                let (matrix, rhs, measures) = (self.values(matrix), self.values(rhs), self.values(measures));
+                let solved = match symmetric {
+                    true => solve_symmetric(&matrix, &rhs, (&measures, groups)),
+                    false => solve_f64(&matrix, &rhs),
+                };
+                results.iter().zip(solved).for_each(|(&local, x)| self.set(local, x));
             }
             Statement::Iterate { count, unknowns, start, body, next, residual } => {
                 let mut values = self.values(start);
@@ -138,4 +140,38 @@ impl Machine<'_> {
             Expression::Pack(_) => panic!("a pack is no number"),
         }
     }
+}
+
+/// The unknowns of a symmetric system given by rows, then its rank: pivots from the diagonal, measured as the runtime's
+/// `linear::solve_symmetric_measured` does. Without measures these are the diagonal, without groups each row is one.
+fn solve_symmetric(matrix: &[f64], rhs: &[f64], (measures, groups): (&[f64], &[usize])) -> Vec<f64> {
+    let n = rhs.len();
+    let threshold = 16.0 * n as f64 * f64::EPSILON;
+    let mut a: Vec<Vec<f64>> = matrix.chunks(n).map(<[f64]>::to_vec).collect();
+    let measure = |k: usize| if measures.is_empty() { matrix[k * n + k] } else { measures[k] };
+    let group = |k: usize| if groups.is_empty() { k } else { groups[k] };
+    let greatest = |k: usize| (0..n).filter(|&other| group(other) == group(k)).map(measure).fold(0.0, f64::max);
+    let counts = |k: usize| measure(k) > threshold * threshold * greatest(k);
+    let size = |a: &[Vec<f64>], k: usize| if counts(k) { a[k][k] / measure(k) } else { 0.0 };
+    let (mut left, mut taken): (Vec<usize>, Vec<usize>) = ((0..n).collect(), Vec::new());
+    let mut b = rhs.to_vec();
+    while let Some(&k) = left.iter().max_by(|&&i, &&j| size(&a, i).total_cmp(&size(&a, j))) {
+        if size(&a, k) <= threshold {
+            break;
+        }
+        left.retain(|&other| other != k);
+        taken.push(k);
+        for &i in &left {
+            let factor = a[i][k] / a[k][k];
+            left.iter().for_each(|&j| a[i][j] -= factor * a[k][j]);
+            b[i] -= factor * b[k];
+        }
+    }
+    let mut x = vec![0.0; n];
+    for &k in taken.iter().rev() {
+        let known: f64 = (0..n).filter(|&j| j != k).map(|j| a[k][j] * x[j]).sum();
+        x[k] = (b[k] - known) / a[k][k];
+    }
+    x.push(taken.len() as f64);
+    x
 }
