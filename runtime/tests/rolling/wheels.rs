@@ -1,6 +1,6 @@
 //! `Rolling` and `Skate` against closed solutions, laws of motion and equations that are typed in.
 
-use multibody::nalgebra::{Rotation3, UnitQuaternion, Vector3};
+use multibody::nalgebra::{Matrix3, Rotation3, SVector, UnitQuaternion, Vector3};
 use multibody::{Dop853, Integrator, Projection, WithProjection, multibody};
 
 use crate::beside::car_held as car;
@@ -83,6 +83,63 @@ multibody! {
         output places = [front.position, back.position];
         emit forward_dynamics, constraints;
     }
+}
+
+/// A ball whose height is eliminated in every formulation, since it is a coupling of its centre's coordinates.
+macro_rules! ball_in_angles {
+    ($name:ident, $constraints:ident) => {
+        multibody! {
+            mod $name {
+                param radius = 0.2;
+                world { gravity: [0.3, -1.2, -9.1] }
+                body ball { mass: 1.3, inertia: inertia(0.03, 0.035, 0.028, 0.002, -0.001, 0.003) }
+                joint float: Free { parent: ground.at(0.1 * X), child: ball, coordinates: RollPitchYaw }
+                let plane = ground.at([0.3, -0.2, 0.7]).rotated([1.0, -2.0, 0.5], 0.4);
+                constraint roll: Rolling { wheel: ball, radius: radius, on: plane }
+                force wind: Force { at: ball.at([0.05, 0.1, -0.02]), value: [3.0, -1.0, 2.0], axes: ground }
+                output height = plane.express(ball.position - plane.position).z;
+                output load = [roll.force, roll.touch.multiplier * (plane.rotation * Z)];
+                output arms = [roll.contact - ball.position, ball.rotation * [0.05, 0.1, -0.02]];
+                output moved = [ball.acceleration, ball.angular_acceleration, ball.angular_velocity];
+                output axes = ball.rotation;
+                output up = plane.rotation * Z;
+                formulation { constraints: $constraints }
+                emit forward_dynamics;
+            }
+        }
+    };
+}
+ball_in_angles!(in_angles, Multipliers);
+ball_in_angles!(in_angles_reduced, Reduced);
+
+/// Newton and Euler of a ball on a plane: what the plane does is known, though its height keeps no multiplier.
+#[test]
+fn what_holds_a_height_that_is_eliminated() {
+    macro_rules! check {
+        ($name:ident, $freedoms:literal) => {
+            for k in 0..6 {
+                let number = |at: usize| 0.7 * ((7 * k + 3 * at) as f64).sin();
+                let state = $name::State {
+                    q: SVector::<f64, 5>::from_fn(|at, _| number(at)).into(),
+                    v: SVector::<f64, $freedoms>::from_fn(|at, _| number(at + 5)).into(),
+                };
+                let out = $name::Model::<f64>::default().outputs(0.0, &state, &());
+                let ([force, normal], [lever, arm]) = (out.load, out.arms);
+                let [acceleration, alpha, omega] = out.moved;
+                let (body, up) = (*out.axes.matrix(), out.up);
+                let (wind, gravity) = (Vector3::new(3.0, -1.0, 2.0), Vector3::new(0.3, -1.2, -9.1));
+                assert!((out.height - 0.2).abs() < 1e-14);
+                assert!((force + wind + gravity * 1.3 - acceleration * 1.3).amax() < 1e-12);
+                let own = Matrix3::new(0.03, 0.002, -0.001, 0.002, 0.035, 0.003, -0.001, 0.003, 0.028);
+                let inertia = body * own * body.transpose();
+                let moment = lever.cross(&force) + arm.cross(&wind);
+                assert!((moment - inertia * alpha - omega.cross(&(inertia * omega))).amax() < 1e-12);
+                assert!((normal + up * up.dot(&force)).amax() < 1e-12 && force.norm() > 1.0);
+            }
+        };
+    }
+    check!(in_angles, 5);
+    check!(in_angles_reduced, 3);
 }
 
 /// A solid ball takes five sevenths of what pulls it down the slope; friction is the rest.

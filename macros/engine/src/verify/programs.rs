@@ -33,7 +33,8 @@ const FORMS: f64 = 1e4;
 const OPEN: f64 = 0.1;
 
 /// A result that is zero up to the rounding of 31 digits beside its own terms, such as the square of a cosine of axes that the
-/// state has at right angles, has no digits in any form but that in which it was derived.
+/// state has at right angles, has no digits in any form but that in which it was derived; nor has one that is zero there because its terms
+/// are equal and opposite, which they are to rounding alone in others.
 const LOST: f64 = 1e-28;
 
 /// Results that keep fewer digits than this are not worth a comparison.
@@ -203,7 +204,7 @@ impl Subject<'_> {
 impl Margin<'_> {
     /// Whether a result without digits is off by no more than its terms may be.
     fn excuses(&self, at: usize, exact: f64, error: f64) -> bool {
-        let terms = if exact == 0.0 { 0.0 } else { (self.terms)(at) };
+        let terms = (self.terms)(at);
         terms.is_finite() && exact.abs() <= LOST * terms && error <= self.lost * terms
     }
 }

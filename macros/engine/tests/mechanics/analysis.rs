@@ -416,6 +416,9 @@ fn what_stands_alone_is_solved_for() {
     let explicit = |text: &str| (vec![text.to_owned()], 0);
     assert_eq!(of("constraint e = 2.0 * b + sin(a) * cos(c);", ", independent: [a, c]"), explicit("explicit: b"));
     assert_eq!(of("constraint e = two.position.z - a * a;", ", independent: [a, c]"), explicit("explicit: b"));
+    // Before what is farther from the ground, unless it is to be independent.
+    assert_eq!(of("constraint e = 2.0 * b + sin(a) * cos(c);", ""), explicit("explicit: b"));
+    assert_eq!(of("constraint e = 2.0 * b + sin(a) * cos(c);", ", independent: [b]").0, ["newton 0: c"]);
     // Its factor depends on another coordinate, or on a parameter that may be zero, or it stands elsewhere too.
     let newton = |text: &str| (vec![text.to_owned()], 1);
     assert_eq!(of("constraint e = a * b + cos(c) - 0.5;", ", independent: [a, c]"), newton("newton 0: b"));

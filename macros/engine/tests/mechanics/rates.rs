@@ -2,7 +2,7 @@
 
 use multibody_engine::mechanics::analysis::analyse;
 use multibody_engine::mechanics::loops::constraints::row_name;
-use multibody_engine::mechanics::loops::structure::{Row, Structure};
+use multibody_engine::mechanics::loops::structure::{DependentRates, Row, Structure};
 use multibody_engine::model::types::Model;
 use multibody_engine::{Trouble, compile};
 
@@ -86,6 +86,31 @@ fn rates_of_what_positions_hold() {
     let structure = sound(&held);
     assert_eq!(names(&held, &structure.dropped), ["same"]);
     assert!(names(&held, &structure.rows).contains(&"blade".to_owned()));
+}
+
+/// A disc that follows its height may come to lie flat, where its equations have no slopes: of what is left to move that says nothing.
+#[test]
+fn poses_without_slopes_say_nothing() {
+    let disc = |independent: &str| {
+        model_with(
+            "",
+            &format!(
+                "body carrier {{ mass: 1.0, inertia: diag(0.1, 0.1, 0.1) }}
+                 body disc {{ mass: 1.5, inertia: diag(0.05, 0.1, 0.05) }}
+                 joint plane: Planar {{ parent: ground, child: carrier, axes: [X, Z] }}
+                 joint lean: Revolute {{ parent: carrier, child: disc, axis: X }}
+                 constraint roll: Rolling {{ wheel: disc, axis: Y, radius: 0.3 }}
+                 formulation {{ constraints: Reduced, independent: [{independent}] }}"
+            ),
+        )
+    };
+    for independent in ["plane.x, plane.y", "plane.angle, plane.y", "plane.x"] {
+        let model = disc(independent);
+        let structure = sound(&model);
+        let DependentRates { unknowns, rows, .. } = &structure.rates;
+        assert_eq!((unknowns.len(), rows.len()), (2, 2), "{independent}");
+        assert!(compile(&model).is_ok(), "{independent}");
+    }
 }
 
 #[test]

@@ -140,6 +140,33 @@ fn entries_that_are_zero_where_the_loop_is_closed() {
     assert_eq!(compiled.unchecked, []);
 }
 
+/// A frame that a parameter turns, by nothing as a rule: entries of the linearisation are zero since their terms are equal and opposite,
+/// which they are to rounding in the program.
+#[test]
+fn entries_whose_terms_are_equal_and_opposite() {
+    compiled(
+        "pub mod m {
+            param r = 0.3;
+            param tilt = 0.0;
+            param other = 0.0;
+            body base { mass: 0 }
+            body above { mass: 0 }
+            body wheel { mass: 0, inertia: diag(0.05, 0, 0.05) }
+            body frame { mass: 0, inertia: diag(0, 1, 1) }
+            body fly { mass: 1, inertia: diag(0.06, 0.06, 0) }
+            joint place: Planar { parent: ground.rotated(X, tilt), child: base, axes: [X, Z] }
+            joint up: Prismatic { parent: base, child: above, axis: Y }
+            joint lean: Revolute { parent: above, child: frame, axis: X }
+            joint spin: Revolute { parent: frame, child: wheel, axis: Y }
+            joint turn: Revolute { parent: frame, child: fly, axis: Y }
+            constraint roll: Rolling { wheel: wheel, axis: Y, radius: r, on: ground.rotated(X, -0.5 * PI) }
+            output force = roll.force;
+            output slip = roll.slip;
+            emit forward_dynamics, linearize, constraints;
+        }",
+    );
+}
+
 /// Several bodies as one go through all stages: in outputs, their linearisation, forces, states, and under a constraint.
 #[test]
 fn several_bodies_as_one() {

@@ -370,6 +370,14 @@ impl Problem {
         self.speeds.iter().map(|speed| speed.slopes.iter().map(scaled).collect()).collect()
     }
 
+    /// Whether all equations, of positions and of velocities, and all speeds have slopes at a point that are numbers.
+    pub(super) fn has_slopes(&self, point: &Point, values: &mut Values) -> bool {
+        let all: Vec<usize> = (0..self.equations.len()).collect();
+        let [positions, rates] = [self.linearise(point, &all, values), self.rates_at(point, values)];
+        let rows = [positions, rates].into_iter().flat_map(|found| found.rows).chain(self.speeds_at(point, values));
+        rows.flatten().all(|(_, slope)| slope.is_finite())
+    }
+
     /// Columns that a speed reads.
     pub(super) fn columns_of_speed(&self, number: usize) -> impl Iterator<Item = usize> {
         self.speeds[number].slopes.iter().map(|slope| slope.0)

@@ -98,7 +98,8 @@ pub(super) fn keep(model: &Model, problem: &Problem, structure: &mut Structure) 
     complaints
 }
 
-/// Closed configurations, or random ones, at times of their own.
+/// Closed configurations, or random ones, at times of their own. Those where equations have no slopes, as those of a disc that lies flat,
+/// say nothing, and are left out.
 pub(super) fn points(problem: &Problem, structure: &Structure) -> Vec<Point> {
     let mut random = Random(0x8011E5);
     let mut points: Vec<Point> = structure.closed.iter().map(|closed| problem.at(&closed.positions)).collect();
@@ -106,6 +107,13 @@ pub(super) fn points(problem: &Problem, structure: &Structure) -> Vec<Point> {
         points = (0..POSES).map(|_| problem.start(&mut random, 1.0)).collect();
     }
     points.iter_mut().for_each(|point| problem.put_time(point, LATE * random.next().abs()));
+    let mut values = Values::default();
+    let clear: Vec<bool> = points.iter().map(|point| problem.has_slopes(point, &mut values)).collect();
+    // Nowhere any slopes: then all that is said of them fails.
+    if clear.contains(&true) {
+        let mut clear = clear.into_iter();
+        points.retain(|_| clear.next() == Some(true));
+    }
     points
 }
 

@@ -2,8 +2,8 @@
 //!
 //! In: one group of equations with Jacobians at closed configurations. Out: `solve` items and systems for Newton's method
 //! in an order in which each step needs earlier ones only. What couplings, formulas and closed forms give is eliminated
-//! from the Jacobians first; what is left of the other rows chooses the dependent coordinates among the rest, those
-//! farthest from the ground first, as far as they are well determined.
+//! from the Jacobians first; what is left of the other rows chooses the dependent coordinates among the rest, those that stand alone
+//! in an equation first, then those farthest from the ground, as far as they are well determined.
 
 use std::collections::HashMap;
 
@@ -258,7 +258,14 @@ impl ReductionSearch<'_> {
         let turns = |column: usize| self.problem.columns[self.group.columns[column]].turns;
         let mut candidates: Vec<usize> = columns.to_vec();
         candidates.retain(|&k| !wished(k));
-        candidates.sort_by_key(|&k| std::cmp::Reverse((self.depth(self.coordinate(k).joint), k)));
+        // What stands alone in an equation is found without a guess, and well wherever the mechanism stands.
+        let is_explicit = |&column: &usize| {
+            let mut own = rows.iter().filter_map(|&row| self.row(row));
+            own.any(|row| self.explicit(&[row], &[self.coordinate(column)]).is_some())
+        };
+        let explicit: Vec<usize> = candidates.iter().copied().filter(is_explicit).collect();
+        candidates
+            .sort_by_key(|&k| std::cmp::Reverse((explicit.contains(&k), self.depth(self.coordinate(k).joint), k)));
         let parts: Vec<HashMap<usize, Vec<f64>>> = matrices
             .iter()
             .map(|matrix| {

@@ -177,7 +177,8 @@ impl Choice<'_> {
             let size = dot(&row, &row).sqrt();
             let left = without(row, &basis);
             let rest = dot(&left, &left).sqrt();
-            if rest <= DEPENDENT * size || size == 0.0 {
+            // What is no number is independent of nothing.
+            if !(rest > DEPENDENT * size) {
                 return None;
             }
             basis.push(left.into_iter().map(|x| x / rest).collect());

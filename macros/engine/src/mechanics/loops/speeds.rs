@@ -9,6 +9,7 @@
 //! What depends on positions in steps of its own has been defined before, in rates of the state: its rates are put into E, and what
 //! follows here is put into them.
 
+use crate::invariant::fault::raise;
 use crate::mechanics::equations::Equations;
 use crate::model::types::Coordinate;
 use crate::symbolic::differentiate::Differentiator;
@@ -59,6 +60,9 @@ impl Equations<'_> {
             let acceleration = self.g.substitute(&[acceleration], &accelerations)[0];
             let acceleration = self.g.substitute(&[acceleration], &known[1])[0];
             second.push(-self.g.substitute(&[acceleration], &unaccelerated)[0]);
+        }
+        if first.len() != unknowns.len() {
+            raise("there are as many equations of velocities and of speeds as rates that follow");
         }
         if !unknowns.is_empty() {
             let readable = self.scene.way.for_readers;

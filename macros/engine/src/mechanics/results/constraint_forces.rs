@@ -12,7 +12,8 @@ use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::reduction::Map;
 use crate::mechanics::loops::structure::{Means, Row};
 use crate::mechanics::translate::forces::LoadCase;
-use crate::model::types::{ConstraintId, Coordinate, LoopClosure};
+use crate::mechanics::translate::manipulations::loads_links;
+use crate::model::types::{Coordinate, LoopClosure};
 use crate::symbolic::graph::Scalar;
 use crate::symbolic::triangular_form::{components, matching};
 
@@ -50,14 +51,14 @@ impl Equations<'_> {
     }
 
     /// Equations and unknowns of all steps but linear couplings of coordinates.
-    fn held_rows(&mut self) -> (Vec<Row>, Vec<Coordinate>) {
+    fn held_rows(&self) -> (Vec<Row>, Vec<Coordinate>) {
         let structure = Rc::clone(&self.scene.structure);
         let mut rows = structure.independent.clone();
         rows.extend(&structure.rates.rows);
         let mut unknowns = structure.rates.held.clone();
         for step in &structure.steps {
             match step.means {
-                Means::Linear(id) if self.is_seen_through(id) => {
+                Means::Linear(id) if !loads_links(self.scene.model, id) => {
                     rows.retain(|row| row.closing != LoopClosure::Constraint(id));
                 }
                 Means::Linear(_) | Means::Explicit(_) | Means::Solve(_) | Means::Newton { .. } => {
@@ -67,13 +68,6 @@ impl Equations<'_> {
         }
         rows.retain(|row| !structure.rows.contains(row));
         (rows, unknowns)
-    }
-
-    /// Whether a coupling acts on coordinates of the tree alone.
-    fn is_seen_through(&mut self, id: ConstraintId) -> bool {
-        let slopes = self.slopes(id);
-        let cuts = &self.scene.model.cuts;
-        slopes.wrenches.is_empty() && slopes.efforts.iter().all(|(coordinate, _)| !cuts.contains(&coordinate.joint))
     }
 
     fn balances(&mut self, rows: &[Row], unknowns: &[Coordinate]) -> Vec<Balance> {
@@ -109,7 +103,7 @@ impl Equations<'_> {
         let (mut map, mut coupled) = (Map::new(), Vec::new());
         for step in &structure.steps {
             let Means::Linear(id) = step.means else { continue };
-            if !self.is_seen_through(id) {
+            if loads_links(self.scene.model, id) {
                 continue;
             }
             if let Some(definition) = self.coupling(id, step) {

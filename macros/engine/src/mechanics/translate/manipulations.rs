@@ -16,7 +16,8 @@ use crate::mechanics::loops::reduction::Reduction;
 use crate::mechanics::loops::structure::{Means, Role, Row, Structure};
 use crate::model::site::Sited;
 use crate::model::types::{
-    ConstraintId, Coordinate, Expr, ExprNode, ForceKind, LoopClosure, Model, Order, SystemQuantity, TwoRoots, Variable,
+    BodyRef, ConstraintId, ConstraintKind, Coordinate, Expr, ExprNode, ForceKind, Frame, LoopClosure, Model, Order,
+    SystemQuantity, TwoRoots, Variable,
 };
 use crate::solve;
 use crate::symbolic::differentiate::Differentiator;
@@ -318,11 +319,24 @@ fn is_wrong_row(model: &Model, structure: &Structure, expr: &Expr) -> bool {
     }
 }
 
+/// Whether an equation acts on places of frames or on a joint that closes a loop. What acts on coordinates of the tree alone, such as a gear,
+/// loads no link.
+pub(in crate::mechanics) fn loads_links(model: &Model, constraint: ConstraintId) -> bool {
+    let ConstraintKind::Value(value) = &model.constraints[constraint].kind else { return true };
+    let is_moving = |frame: &Frame| frame.body != BodyRef::Ground;
+    holds(value, |node| match node {
+        ExprNode::OfFrame(frame, _) | ExprNode::Express { frame, .. } => is_moving(frame),
+        ExprNode::OfBodies(..) => true,
+        ExprNode::Coordinate { joint, .. } => model.cuts.contains(joint),
+        _ => false,
+    })
+}
+
 /// A constraint whose force is not known.
 fn no_multiplier(model: &Model, structure: &Structure, constraint: ConstraintId, expr: &Expr) -> Option<Complaint> {
     let of = |row: &Row| row.closing == LoopClosure::Constraint(constraint);
     let name = row_name(model, LoopClosure::Constraint(constraint), 0);
-    let linear = |means: &Means| matches!(means, Means::Linear(id) if *id == constraint);
+    let linear = |means: &Means| matches!(means, Means::Linear(id) if *id == constraint && !loads_links(model, *id));
     let found = structure.steps.iter().find(|step| linear(&step.means));
     let is_held = structure.rows.iter().chain(&structure.independent).chain(&structure.rates.rows).any(of);
     let is_open = structure.shared.iter().any(of) || !is_held;
