@@ -73,6 +73,23 @@ fn fields_are_guessed() {
     assert_eq!(text.matches("modbroken").count(), 1);
 }
 
+/// Orientations by quaternions are never guessed: a guess of one could not be compared.
+#[test]
+fn quaternions_stay_in_the_state() {
+    let text = skeletons_of(
+        "mod m {
+            body plate { mass: 3.0, inertia: diag(1.0, 1.0, 1.0) }
+            body ball { mass: 1.0, inertia: diag(1.0, 1.0, 1.0) }
+            joint hinge: Universal { parent: ground, child: plate, axes: [X, Y] }
+            joint free: Free { parent: plate, child: ball }
+            constraint roll: Rolling { wheel: ball, radius: 0.25, on: plate }
+            formulation { constraints: Reduced, independent: [hinge.first, free.x, free.y] }
+        }",
+    );
+    let guess = text.split("pubstructGuess").nth(1).map_or("", |rest| rest.split('}').next().unwrap_or_default());
+    assert!(guess.contains("pubhinge") && !guess.contains("pubfree"), "{guess}");
+}
+
 /// Methods, fields and types of loops exist, whatever else is wrong.
 #[test]
 fn loops_are_guessed() {

@@ -34,8 +34,11 @@ pub(in crate::emit) fn structure(model: &Model) -> Structure {
             away.extend(&solve.unknowns);
             steps.push(Step { unknowns: solve.unknowns.clone(), means: Means::Solve(number) });
         }
-        let left: Vec<Coordinate> =
-            structure.state.iter().copied().filter(|coordinate| !away.contains(coordinate)).collect();
+        // Of a body whose orientation is a quaternion nothing follows.
+        let may_follow = |coordinate: &Coordinate| {
+            !away.contains(coordinate) && !model.joints[coordinate.joint].kind.has_quaternion()
+        };
+        let left: Vec<Coordinate> = structure.state.iter().copied().filter(may_follow).collect();
         if model.independent.is_empty() {
             // Which coordinates Newton's method finds is not known: any of them may be one.
             if model.solves.is_empty() && !rows.is_empty() {
