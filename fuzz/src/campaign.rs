@@ -126,6 +126,28 @@ impl Family for Loops {
     }
 }
 
+/// Wheels, blades and other equations of velocities in all formulations, with speeds.
+pub struct Wheels;
+
+impl Family for Wheels {
+    fn draw(&self, seed: u64) -> Mechanism {
+        Mechanism::on_wheels(&mut Random::new(seed))
+    }
+
+    fn check(&self, mechanism: &Mechanism, seed: u64) -> Verdict {
+        loops::check(mechanism, seed)
+    }
+
+    fn excuses(&self, mechanism: &Mechanism, _: u64, said: &[String]) -> bool {
+        let all = |words: &str| said.iter().all(|text| text.contains(words));
+        all("orientation is a quaternion")
+            || all("and it is a quaternion")
+            || !loops::is_regular(mechanism)
+            // Rows that depend on each other.
+            || loops::is_redundant(mechanism)
+    }
+}
+
 /// Runs a family.
 pub fn run(family: &dyn Family, plan: Plan) -> Tally {
     let start = Instant::now();

@@ -1,17 +1,18 @@
-//! Loops in plain numbers: residuals, their rates and accelerations, states that satisfy them, and the accelerations that
+//! Loops, wheels and blades in plain numbers: residuals, their rates and accelerations, states that satisfy them, and the accelerations that
 //! follow from the plain mass matrix with a multiplier for each equation, redundant ones included.
 
 use nalgebra::{DMatrix, DVector};
 
 use crate::algebra::{Matrix, V3, apply, cross, dot, least, minus, norm, plus, product, scaled, transposed};
 use crate::mechanism::expression::Point;
-use crate::mechanism::{Kind, Mechanism};
+use crate::mechanism::{Frame, Held, Kind, Mechanism, Term};
 use crate::plain::{Motion, Plain, displaced, split};
 use crate::random::Random;
 
 /// One scalar equation at a point.
 #[derive(Clone, Copy, Debug)]
 struct Row {
+    /// NaN of an equation of velocities.
     residual: f64,
     rate: f64,
     acceleration: f64,
@@ -145,27 +146,115 @@ fn rows(of: &Mechanism, at: &Point) -> Vec<Row> {
             acceleration: dot(n, minus(b.acceleration, a.acceleration)) + (dot(v, v) - dot(n, v).powi(2)) / reach,
         });
     }
+    for held in &of.held {
+        list.extend(held_rows(held, &plain, at));
+    }
     list
 }
 
-/// Residuals of all equations.
+/// Of a wheel, a blade or rates, in the axes of the plane, as the language defines them.
+fn held_rows(held: &Held, plain: &Plain<'_>, at: &Point) -> Vec<Row> {
+    let moving = |on: &Frame, what: &Frame| Relative::new(&plain.frame(on), &plain.frame(what));
+    let rate = |rate: f64, acceleration: f64| Row { residual: f64::NAN, rate, acceleration };
+    let unit = |v: V3| scaled(1.0 / norm(v), v);
+    let up = UNITS[2];
+    // The material's velocity at a point of the body, which moves on it, and the rate of that.
+    let slip = |relative: &Relative, low: V3, moved: V3| {
+        let Relative { s: [_, v, a], w, dw, .. } = relative;
+        let slip = plus(*v, cross(*w, low));
+        (slip, plus(*a, plus(cross(*dw, low), cross(*w, moved))))
+    };
+    match held {
+        Held::Ball { wheel, radius, on } => {
+            let relative = moving(on, wheel);
+            let (v, dv) = slip(&relative, scaled(-radius.value(at), up), [0.0; 3]);
+            let height = relative.along(up);
+            let touch = Row { residual: height.residual - radius.value(at), ..height };
+            vec![touch, rate(v[0], dv[0]), rate(v[1], dv[1])]
+        }
+        Held::Disc { wheel, axis, radius, on } => {
+            let (relative, r) = (moving(on, wheel), radius.value(at));
+            let axle = apply(&relative.turn, unit(axis.value(at)));
+            let turned = cross(relative.w, axle);
+            let (tilt, tilting) = (axle[2], turned[2]);
+            let upright = (1.0 - tilt * tilt).sqrt();
+            let rising = -tilt * tilting / upright;
+            // Ahead, and from the centre to the contact: quotients by `upright`.
+            let quotient = |x: V3, dx: V3| {
+                let first = scaled(1.0 / upright, x);
+                (first, minus(scaled(1.0 / upright, dx), scaled(rising / upright, first)))
+            };
+            let (ahead, ahead_rate) = quotient(cross(axle, up), cross(turned, up));
+            let down = minus(scaled(tilt, axle), up);
+            let (low, moved) = quotient(down, plus(scaled(tilting, axle), scaled(tilt, turned)));
+            let (v, dv) = slip(&relative, scaled(r, low), scaled(r, moved));
+            let aside = minus(axle, scaled(tilt, up));
+            let (aside, aside_rate) = quotient(aside, minus(turned, scaled(tilting, up)));
+            // The material's velocity along the normal is the rate of the height.
+            let touch = Row { residual: relative.s[0][2] - r * upright, rate: v[2], acceleration: dv[2] };
+            let across = |n: V3, dn: V3| rate(dot(v, n), dot(dv, n) + dot(v, dn));
+            vec![touch, across(ahead, ahead_rate), across(aside, aside_rate)]
+        }
+        Held::Blade { blade, along, on } => {
+            let relative = moving(on, blade);
+            let edge = apply(&relative.turn, along.value(at));
+            let (side, turned) = (cross(up, edge), cross(up, cross(relative.w, edge)));
+            let size = norm(side);
+            let aside = scaled(1.0 / size, side);
+            let aside_rate = scaled(1.0 / size, minus(turned, scaled(dot(aside, turned), aside)));
+            let [_, v, a] = relative.s;
+            vec![rate(dot(v, aside), dot(a, aside) + dot(v, aside_rate))]
+        }
+        Held::Rates { terms, drift } => {
+            let mut row = rate(drift * at.time.sin(), drift * at.time.cos());
+            for Term { rate: (joint, k), factor, wave, of } in terms {
+                let (sin, cos) = at.q[of.0][of.1].sin_cos();
+                let slope = factor + wave * sin;
+                row.rate += slope * at.v[*joint][*k];
+                row.acceleration += slope * at.a[*joint][*k] + wave * cos * at.v[of.0][of.1] * at.v[*joint][*k];
+            }
+            vec![row]
+        }
+    }
+}
+
+/// Rates of all equations where nothing moves.
+fn drifts(of: &Mechanism, at: &Point) -> DVector<f64> {
+    let mut at = at.clone();
+    at.v.iter_mut().chain(&mut at.a).for_each(|list| list.fill(0.0));
+    DVector::from(rows(of, &at).iter().map(|row| row.rate).collect::<Vec<f64>>())
+}
+
+/// Which equations are of positions.
+fn of_positions(of: &Mechanism, at: &Point) -> Vec<usize> {
+    let all = rows(of, at);
+    (0..all.len()).filter(|&k| !all[k].residual.is_nan()).collect()
+}
+
+/// Residuals of all equations of positions.
 pub fn residuals(of: &Mechanism, at: &Point) -> Vec<f64> {
-    rows(of, at).iter().map(|row| row.residual).collect()
+    rows(of, at).iter().map(|row| row.residual).filter(|residual| !residual.is_nan()).collect()
 }
 
 /// Rates of the residuals by velocity coordinate.
 pub fn jacobian(of: &Mechanism, at: &Point) -> DMatrix<f64> {
     let n = of.freedoms();
+    let rest = drifts(of, at);
     let mut at = at.clone();
     at.a.iter_mut().for_each(|list| list.fill(0.0));
     let columns: Vec<DVector<f64>> = (0..n)
         .map(|k| {
             let unit: Vec<f64> = (0..n).map(|i| f64::from(u8::from(i == k))).collect();
             at.v = split(of, &unit);
-            DVector::from(rows(of, &at).iter().map(|row| row.rate).collect::<Vec<f64>>())
+            DVector::from(rows(of, &at).iter().map(|row| row.rate).collect::<Vec<f64>>()) - &rest
         })
         .collect();
     DMatrix::from_columns(&columns)
+}
+
+/// Those of equations of positions alone.
+pub fn position_jacobian(of: &Mechanism, at: &Point) -> DMatrix<f64> {
+    jacobian(of, at).select_rows(&of_positions(of, at))
 }
 
 /// Whether some velocity turns the ends of a screw that closes a loop about another axis than its own.
@@ -192,11 +281,11 @@ pub fn settled(of: &Mechanism, mut at: Point) -> Option<Point> {
     let mut last = f64::INFINITY;
     for _ in 0..40 {
         let gap = DVector::from(residuals(of, &at));
-        last = gap.amax();
+        last = if gap.is_empty() { 0.0 } else { gap.amax() };
         if last < 1e-14 {
             break;
         }
-        let (step, ..) = least(&jacobian(of, &at), &-gap);
+        let (step, ..) = least(&position_jacobian(of, &at), &-gap);
         let step = if step.amax() > 0.5 { &step * (0.5 / step.amax()) } else { step };
         at.q = displaced(of, &at.q, &split(of, step.as_slice()), 1.0);
     }
@@ -205,7 +294,7 @@ pub fn settled(of: &Mechanism, mut at: Point) -> Option<Point> {
     }
     let v = DVector::from(at.v.concat());
     let slope = jacobian(of, &at);
-    let (step, ..) = least(&slope, &-(&slope * &v));
+    let (step, ..) = least(&slope, &-(&slope * &v + drifts(of, &at)));
     at.v = split(of, (v + step).as_slice());
     Some(at)
 }
@@ -223,7 +312,7 @@ pub fn state(of: &Mechanism, random: &mut Random) -> Option<Point> {
     let direction: Vec<f64> = (0..of.freedoms()).map(|_| random.unit()).collect();
     // Along the motion that the loops allow, in small steps, so that it stays on the branch.
     for _ in 0..6 {
-        let slope = jacobian(of, &at);
+        let slope = position_jacobian(of, &at);
         let d = DVector::from(direction.clone());
         let (back, ratio, _) = least(&slope, &-(&slope * &d));
         if ratio < 1e-2 {

@@ -3,7 +3,7 @@
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
-use multibody_fuzz::campaign::{Chains, Family, Limbs, Loops, Plan, Tally, run};
+use multibody_fuzz::campaign::{Chains, Family, Limbs, Loops, Plan, Tally, Wheels, run};
 use multibody_fuzz::{differentiated, grammar_campaign, jury, manipulated, robots, written};
 
 fn number(arguments: &[String], name: &str, default: u64) -> u64 {
@@ -106,9 +106,10 @@ fn main() -> ExitCode {
         Some("chains") => Box::new(Chains),
         Some("limbs") => Box::new(Limbs),
         Some("loops") => Box::new(Loops),
+        Some("wheels") => Box::new(Wheels),
         _ => {
             println!(
-                "chains|limbs|loops|grammar|broken|manipulated|robots|rustc [--models N] [--seed S] [--shown K] [--seconds T]"
+                "chains|limbs|loops|wheels|grammar|broken|manipulated|robots|rustc [--models N] [--seed S] [--shown K] [--seconds T]"
             );
             println!("jury {}", jury::USAGE);
             println!("written {}", written::USAGE);

@@ -69,6 +69,7 @@ impl Programs {
 
     /// Compiles a checked model.
     pub(crate) fn of(model: Model) -> Result<Programs, Failure> {
+        let model = multibody_engine::chosen(&model).map_err(|_| Failure::Panic)?.into_owned();
         match compile(&model) {
             Ok((_, compiled)) if !compiled.sound => Err(Failure::GivenBack),
             Ok((structure, compiled)) => Ok(Programs { model, structure, compiled }),

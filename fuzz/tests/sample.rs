@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::time::Duration;
 
-use multibody_fuzz::campaign::{Chains, Family, Limbs, Loops, Plan, Tally, run};
+use multibody_fuzz::campaign::{Chains, Family, Limbs, Loops, Plan, Tally, Wheels, run};
 use multibody_fuzz::mechanism::Mechanism;
 use multibody_fuzz::{differentiated, grammar_campaign, manipulated, robots};
 
@@ -54,8 +54,13 @@ fn limbs_that_are_alike() {
 }
 
 #[test]
+fn wheels_blades_and_speeds() {
+    passes_in_all_forms(&Wheels, 60, 1);
+}
+
+#[test]
 fn other_forms_are_drawn_often() {
-    for family in [&Chains as &dyn Family, &Limbs, &Loops] {
+    for family in [&Chains as &dyn Family, &Limbs, &Loops, &Wheels] {
         let asked = asked(family, 1..101);
         assert!(asked.iter().all(|&count| count > 25), "{asked:?}");
     }

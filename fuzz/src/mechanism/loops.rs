@@ -56,7 +56,7 @@ impl Mechanism {
     }
 
     /// A configuration of the tree, of some size.
-    fn pose(&self, random: &mut Random) -> Point {
+    pub(super) fn pose(&self, random: &mut Random) -> Point {
         let mut point = self.point(random);
         for (joint, q) in self.joints.iter().zip(&mut point.q) {
             let angles = joint.kind.quaternion().unwrap_or(q.len());

@@ -10,6 +10,7 @@ pub mod loops;
 pub mod numbers;
 pub mod shrink;
 pub mod text;
+pub mod wheels;
 
 pub use expression::{Expr, Vector};
 
@@ -33,6 +34,10 @@ pub struct Mechanism {
     pub joints: Vec<Joint>,
     /// `r0`, `r1`, ..: rods.
     pub rods: Vec<Rod>,
+    /// `h0`, `h1`, ..: equations of velocities.
+    pub held: Vec<Held>,
+    /// `w0`, `w1`, ..: velocities in the place of rates, by all of these.
+    pub speeds: Vec<Vec<f64>>,
     /// `f0`, `f1`, ..
     pub forces: Vec<Force>,
     /// The words of `emit`.
@@ -148,6 +153,60 @@ pub struct Rod {
     pub length: Expr,
 }
 
+/// An equation of velocities, or a wheel with its equation of positions.
+#[derive(Clone, Debug)]
+pub enum Held {
+    /// Rolls on the plane of a frame.
+    Ball {
+        /// About its centre.
+        wheel: Frame,
+        /// m
+        radius: Expr,
+        /// Whose plane.
+        on: Frame,
+    },
+    /// A thin disc rolls on the plane of a frame.
+    Disc {
+        /// At its centre.
+        wheel: Frame,
+        /// Its axle.
+        axis: Vector,
+        /// m
+        radius: Expr,
+        /// Whose plane.
+        on: Frame,
+    },
+    /// Holds across its edge in the plane of a frame.
+    Blade {
+        /// Where it is.
+        blade: Frame,
+        /// Its edge.
+        along: Vector,
+        /// Whose plane.
+        on: Frame,
+    },
+    /// `(factor + wave * sin(of)) * rate + .. + drift * sin(t)`
+    Rates {
+        /// What moves.
+        terms: Vec<Term>,
+        /// By time.
+        drift: f64,
+    },
+}
+
+/// A rate with its factor; coordinates by joint and number.
+#[derive(Clone, Debug)]
+pub struct Term {
+    /// Whose rate.
+    pub rate: (usize, usize),
+    /// Its factor where `of` is zero.
+    pub factor: f64,
+    /// How much of that comes with the sine of `of`.
+    pub wave: f64,
+    /// A coordinate that is a number.
+    pub of: (usize, usize),
+}
+
 /// What acts.
 #[derive(Clone, Debug)]
 pub enum Force {
@@ -252,7 +311,7 @@ impl Mechanism {
 
     /// Whether anything closes a loop.
     pub fn looped(&self) -> bool {
-        self.joints.len() > self.bodies.len() || !self.rods.is_empty()
+        self.joints.len() > self.bodies.len() || !self.rods.is_empty() || !self.held.is_empty()
     }
 
     /// Whether a body hangs on a joint, at whatever distance.

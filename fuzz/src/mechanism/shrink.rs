@@ -1,6 +1,6 @@
 //! Simpler mechanisms: one thing less, or one thing made plain.
 
-use super::{Expr, Force, Frame, Inertia, Kind, Mechanism, Vector};
+use super::{Expr, Force, Frame, Held, Inertia, Kind, Mechanism, Vector};
 
 fn plain(e: &Expr, to: f64) -> Option<Expr> {
     let text = format!("{to}");
@@ -36,6 +36,13 @@ impl Mechanism {
                 true
             });
         }
+        for k in (0..self.held.len()).rev() {
+            offer(&|m| {
+                m.held.remove(k);
+                m.speeds.is_empty()
+            });
+        }
+        offer(&|m| !std::mem::take(&mut m.speeds).is_empty());
         for k in (0..self.forces.len()).rev() {
             offer(&|m| {
                 m.forces.remove(k);
@@ -123,6 +130,13 @@ impl Mechanism {
         for rod in &mut self.rods {
             list.extend(&mut rod.between);
         }
+        for held in &mut self.held {
+            match held {
+                Held::Ball { wheel, on, .. } | Held::Disc { wheel, on, .. } => list.extend([wheel, on]),
+                Held::Blade { blade, on, .. } => list.extend([blade, on]),
+                Held::Rates { .. } => {}
+            }
+        }
         for force in &mut self.forces {
             match force {
                 Force::LineSpring { between, .. } => list.extend(between),
@@ -168,6 +182,17 @@ impl Mechanism {
         }
         for rod in &mut self.rods {
             rod.length.visit(f);
+        }
+        for held in &mut self.held {
+            match held {
+                Held::Ball { radius, .. } => radius.visit(f),
+                Held::Disc { axis, radius, .. } => {
+                    axis.visit(f);
+                    radius.visit(f);
+                }
+                Held::Blade { along, .. } => along.visit(f),
+                Held::Rates { .. } => {}
+            }
         }
         for force in &mut self.forces {
             match force {
@@ -224,6 +249,11 @@ impl Mechanism {
             found |= matches!(e, Expr::Position(j, ..) | Expr::Rate(j, ..) if *j == joint);
         });
         found
+            || !self.speeds.is_empty()
+            || self.held.iter().any(|held| match held {
+                Held::Rates { terms, .. } => terms.iter().any(|term| term.rate.0 == joint || term.of.0 == joint),
+                _ => false,
+            })
             || self.forces.iter().any(|force| {
                 matches!(force, Force::Effort { joint: j, .. } | Force::JointSpring { joint: j, .. } if *j == joint)
             })
@@ -232,6 +262,15 @@ impl Mechanism {
     /// Takes a body out on which none hangs, and everything that stands on it.
     fn remove(&mut self, body: usize) -> bool {
         let hangs = |frame: &Frame| frame.body == Some(body);
+        // Equations of velocities and speeds name joints by number.
+        let is_named = self.held.iter().any(|held| match held {
+            Held::Ball { wheel, on, .. } | Held::Disc { wheel, on, .. } => hangs(wheel) || hangs(on),
+            Held::Blade { blade, on, .. } => hangs(blade) || hangs(on),
+            Held::Rates { terms, .. } => terms.iter().any(|term| term.rate.0.max(term.of.0) >= body),
+        });
+        if is_named || !self.speeds.is_empty() {
+            return false;
+        }
         if self.bodies.len() < 2 || self.joints.iter().any(|joint| hangs(&joint.parent)) {
             return false;
         }

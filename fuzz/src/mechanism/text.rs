@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::{FLOW, Force, Frame, Inertia, Kind, Mechanism, Step};
+use super::{FLOW, Force, Frame, Held, Inertia, Kind, Mechanism, Step, Term};
 
 impl Frame {
     /// In the language.
@@ -71,6 +71,14 @@ impl Mechanism {
             let [a, b] = rod.between.each_ref().map(Frame::text);
             writeln!(out, "    constraint r{k}: Rod {{ between: [{a}, {b}], length: {} }}", rod.length.text())?;
         }
+        for (k, held) in self.held.iter().enumerate() {
+            writeln!(out, "    constraint h{k}{}", self.held(held))?;
+        }
+        for (k, factors) in self.speeds.iter().enumerate() {
+            let rates = self.rates();
+            let terms = factors.iter().zip(rates).map(|(factor, rate)| format!("({factor:?} * {rate})"));
+            writeln!(out, "    speed w{k} = {};", terms.collect::<Vec<_>>().join(" + "))?;
+        }
         for (k, force) in self.forces.iter().enumerate() {
             writeln!(out, "    force f{k}: {}", self.force(force))?;
         }
@@ -98,6 +106,39 @@ impl Mechanism {
             writeln!(out, "    emit at {{ functions: [{}] }};", self.at.join(", "))?;
         }
         Ok(())
+    }
+
+    /// A coordinate that is a number.
+    fn coordinate(&self, (joint, component): (usize, usize)) -> String {
+        format!("j{joint}.{}", self.joints[joint].kind.names()[component])
+    }
+
+    /// Rates of all coordinates, where all are numbers.
+    fn rates(&self) -> Vec<String> {
+        let of = |joint: usize| (0..self.joints[joint].kind.freedoms()).map(move |component| (joint, component));
+        (0..self.bodies.len()).flat_map(of).map(|at| format!("{}.rate", self.coordinate(at))).collect()
+    }
+
+    fn held(&self, held: &Held) -> String {
+        match held {
+            Held::Ball { wheel, radius, on } => {
+                format!(": Rolling {{ wheel: {}, radius: {}, on: {} }}", wheel.text(), radius.text(), on.text())
+            }
+            Held::Disc { wheel, axis, radius, on } => {
+                let (wheel, axis, radius, on) = (wheel.text(), axis.text(), radius.text(), on.text());
+                format!(": Rolling {{ wheel: {wheel}, axis: {axis}, radius: {radius}, on: {on} }}")
+            }
+            Held::Blade { blade, along, on } => {
+                format!(": Skate {{ blade: {}, along: {}, on: {} }}", blade.text(), along.text(), on.text())
+            }
+            Held::Rates { terms, drift } => {
+                let term = |Term { rate, factor, wave, of }: &Term| {
+                    let (rate, of) = (self.coordinate(*rate), self.coordinate(*of));
+                    format!("({factor:?} + {wave:?} * sin({of})) * {rate}.rate + ")
+                };
+                format!(" = {}{drift:?} * sin(t);", terms.iter().map(term).collect::<String>())
+            }
+        }
     }
 
     fn force(&self, force: &Force) -> String {

@@ -5,10 +5,11 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use multibody_engine::contracts::function::FunctionKind;
 use multibody_engine::contracts::symbol::Symbol;
 use multibody_engine::mechanics::loops::structure::Means;
+use multibody_engine::model::types::Coordinate;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::{At, Findings, Verdict};
+use super::{At, Findings, Verdict, speeds};
 use crate::algebra::{V3, apply, dot, extremes, least, norm, quaternion, transposed};
 use crate::closed::{accelerations, jacobian, settled, state, turns_beside};
 use crate::mechanism::Mechanism;
@@ -69,6 +70,14 @@ pub fn is_regular(mechanism: &Mechanism) -> bool {
         .is_some_and(|found| found.ratio > 1e-3 && found.rank < mechanism.freedoms())
 }
 
+/// Whether equations depend on others in the drawn configuration.
+pub fn is_redundant(mechanism: &Mechanism) -> bool {
+    drawn(mechanism).is_some_and(|at| {
+        let slope = jacobian(mechanism, &at);
+        least(&slope, &DVector::zeros(slope.nrows())).2 < slope.nrows()
+    })
+}
+
 /// Whether fewer equations are independent where loops are closed than beside that.
 pub fn loses_rank_where_closed(mechanism: &Mechanism) -> bool {
     drawn(mechanism).is_some_and(|closed| {
@@ -106,12 +115,19 @@ struct Anywhere<'a> {
     bodies: &'a [Motion],
     quaternions: bool,
     guesses: Vec<f64>,
+    /// Velocities that are no rates of the state: their coordinates, and values.
+    speeds: Vec<(Coordinate, f64)>,
 }
 
 impl Values for Anywhere<'_> {
     fn value(&self, symbol: Symbol, joint: Option<&str>) -> f64 {
         if let Symbol::Guess { index } = symbol {
             return self.guesses.get(index).copied().unwrap_or(f64::NAN);
+        }
+        if let Symbol::Velocity { joint, component } = symbol
+            && let Some(known) = self.speeds.iter().find(|(at, _)| (at.joint, at.index) == (joint, component))
+        {
+            return known.1;
         }
         let body = joint.and_then(|name| name.strip_prefix('b')).and_then(|text| text.parse::<usize>().ok());
         let Some(body) = body.and_then(|k| self.bodies.get(k)) else { return self.tree.value(symbol, joint) };
@@ -181,7 +197,12 @@ fn look(m: &Mechanism, programs: &Programs, point: &Point, findings: &mut Findin
         return;
     }
     let guesses = guesses(m, programs, &point);
-    let values = Anywhere { tree: At::new(&point), bodies: &plain.bodies, quaternions, guesses };
+    let mut values =
+        Anywhere { tree: At::new(&point), bodies: &plain.bodies, quaternions, guesses, speeds: Vec::new() };
+    if programs.structure.has_speeds() {
+        let Some(speeds) = speeds::of(programs, &values, &rates(m, programs, &point), findings) else { return };
+        values.speeds = speeds;
+    }
     let fastest = found.accelerations.iter().fold(10.0_f64, |r, x| r.max(x.abs()));
     let reach = 1.0 + plain.bodies.iter().fold(0.0_f64, |r, b| r.max(norm(b.place)));
     let way = findings.way;
@@ -194,10 +215,13 @@ fn look(m: &Mechanism, programs: &Programs, point: &Point, findings: &mut Findin
         findings.compare("potential energy", &got, &[potential], potential.abs() + kinetic + 1.0, TOLERANCE);
     }
     let equations = programs.structure.independent.len();
-    if !absolute && equations != found.rank && programs.structure.steps.is_empty() {
+    if m.held.is_empty() && !absolute && equations != found.rank && programs.structure.steps.is_empty() {
         findings.compare("number of equations", &[equations as f64], &[found.rank as f64], 1.0, 0.0);
     }
-    if !absolute {
+    if programs.structure.has_speeds() {
+        let rates = rates(m, programs, &point);
+        speeds::compare(m, programs, (&point, &values.speeds, &rates), (&values, fastest / ratio), findings);
+    } else if !absolute {
         let joint = |k: usize| -> Option<usize> {
             programs.model.joints.get(k)?.place.field.to_string().strip_prefix('j')?.parse().ok()
         };
@@ -234,13 +258,13 @@ fn look(m: &Mechanism, programs: &Programs, point: &Point, findings: &mut Findin
 }
 
 /// The kinetic energy by a mass matrix.
-fn energy(matrix: &DMatrix<f64>, v: &[f64]) -> f64 {
+pub(super) fn energy(matrix: &DMatrix<f64>, v: &[f64]) -> f64 {
     let v = DVector::from_column_slice(v);
     0.5 * v.dot(&(matrix * &v))
 }
 
 /// The symmetric matrix of a triangle's rows.
-fn full(packed: &[f64], size: usize) -> DMatrix<f64> {
+pub(super) fn full(packed: &[f64], size: usize) -> DMatrix<f64> {
     DMatrix::from_fn(size, size, |row, column| {
         let (below, left) = (row.max(column), row.min(column));
         packed.get(below * (below + 1) / 2 + left).copied().unwrap_or(f64::NAN)
@@ -281,9 +305,12 @@ fn outputs(
         // Jacobian by velocity is the twist.
         let v: Vec<f64> = programs
             .structure
-            .state
+            .speeds()
             .iter()
             .map(|c| {
+                if let Some(known) = values.speeds.iter().find(|(at, _)| at == c) {
+                    return known.1;
+                }
                 let name = programs.model.joints[c.joint].place.field.to_string();
                 values.value(Symbol::Velocity { joint: c.joint, component: c.index }, Some(&name))
             })
@@ -304,7 +331,7 @@ fn outputs(
         findings.compare("number of outputs", &[rest.len() as f64], &[6.0 * count as f64], 1.0, 0.0);
         return;
     }
-    if !m.rods.is_empty() {
+    if !m.rods.is_empty() || !m.held.is_empty() {
         return;
     }
     let size = plain.efforts().1 * reach + fastest;
@@ -331,8 +358,18 @@ fn outputs(
     }
 }
 
+/// Rates of the coordinates of the state.
+fn rates(m: &Mechanism, programs: &Programs, point: &Point) -> Vec<f64> {
+    let rate = |c: &Coordinate| {
+        let name = programs.model.joints[c.joint].place.field.to_string();
+        let joint = name.strip_prefix('j').and_then(|text| text.parse::<usize>().ok());
+        joint.filter(|&joint| joint < m.bodies.len()).map_or(f64::NAN, |joint| point.v[joint][c.index])
+    };
+    programs.structure.state.iter().map(rate).collect()
+}
+
 /// Where Newton's method starts: near the truth.
-fn guesses(m: &Mechanism, programs: &Programs, point: &Point) -> Vec<f64> {
+pub(super) fn guesses(m: &Mechanism, programs: &Programs, point: &Point) -> Vec<f64> {
     let mut list = vec![f64::NAN; programs.structure.guesses()];
     for step in &programs.structure.steps {
         let Means::Newton { guess, .. } = step.means else { continue };

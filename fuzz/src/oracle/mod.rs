@@ -1,6 +1,7 @@
 //! What must hold, whatever the model.
 
 pub mod loops;
+mod speeds;
 pub mod tree;
 
 use std::fmt;

@@ -9,5 +9,6 @@ mod beside;
 mod blades;
 mod contacts;
 mod hinged;
+mod known;
 mod wheels;
 mod whipple;

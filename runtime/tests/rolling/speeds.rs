@@ -601,8 +601,7 @@ fn paths() {
     }
 }
 
-/// The centre of a ball on a plate that turns about the vertical through the origin runs on a circle, where gravity is along it and the
-/// ball is solid; here in the three angular velocities of the ball.
+/// A ball on a plate that turns, in its three angular velocities: four at once, and with the digits of single precision.
 #[test]
 fn the_ball_in_lanes_and_in_single_precision() {
     use multibody::Rk4;

@@ -41,7 +41,7 @@ use crate::model::types::{Coordinate, DriveTarget, Handling, JointId, LoopClosur
 use super::loops::constraints::{self, closings, coordinate_name, rate_rows, row_count, row_name, turns};
 use super::loops::groups;
 use super::loops::structure::{Means, Role, Row, Step, Structure};
-use super::translate::formulas;
+use super::translate::{division, formulas};
 use closed::Sampled;
 use configurations::{Configuration, Effort, Found, follow};
 use linear::Elimination;
@@ -69,6 +69,10 @@ pub struct Complaint {
 /// Splits a model's coordinates and equations.
 pub fn analyse(model: &Model) -> Result<Structure, Vec<Complaint>> {
     formulas::complaints(model)?;
+    let divided = division::complaints(model);
+    if !divided.is_empty() {
+        return Err(divided);
+    }
     let staying = leaving::complaints(model);
     if !staying.is_empty() {
         return Err(staying);

@@ -88,6 +88,60 @@ fn rates_of_what_positions_hold() {
     assert!(names(&held, &structure.rows).contains(&"blade".to_owned()));
 }
 
+/// A disc that always lies flat and a blade that always stands on end have no direction, in whatever axes; nor has what is nothing.
+#[test]
+fn nothing_by_nothing() {
+    let coin = "body coin { mass: 1.0, inertia: diag(0.1, 0.1, 0.2) }";
+    let axes = "[-sin(0.3) / sqrt(2), sin(0.3) / sqrt(2), cos(0.3)]";
+    for items in [
+        "joint plane: Planar { parent: ground, child: coin, axis: Z }
+         constraint roll: Rolling { wheel: coin, axis: Z, radius: 0.3 }"
+            .to_owned(),
+        "joint hinge: Revolute { parent: ground, child: coin, axis: Z }
+         constraint roll: Rolling { wheel: coin, axis: -2 * Z, radius: 0.3 }"
+            .to_owned(),
+        format!(
+            "joint plane: Planar {{ parent: ground.rotated([1, 2, 3], 0.7), child: coin, axis: Z }}
+             constraint roll: Rolling {{ wheel: coin.rotated([1, 1, 0], 0.3), axis: {axes}, radius: 0.3, on: ground.rotated([1, 2, 3], 0.7) }}"
+        ),
+        "joint plane: Planar { parent: ground, child: coin, axis: Z }
+         constraint roll: Skate { blade: coin, along: Z }"
+            .to_owned(),
+        "joint plane: Planar { parent: ground, child: coin, axis: Z }
+         force touch: Contact { at: coin, axis: Z, radius: 0.3, stiffness: 1e4, damping: 0.1 }"
+            .to_owned(),
+        "joint plane: Planar { parent: ground, child: coin, axis: Z }
+         output o = (plane.x - plane.x) / (plane.y - plane.y);"
+            .to_owned(),
+        "joint plane: Planar { parent: ground, child: coin, axis: Z }
+         output way = (coin.position - coin.position) / norm(coin.position - coin.position);"
+            .to_owned(),
+    ] {
+        let model = model_with("", &format!("{coin} {items}"));
+        let said = analyse(&model).expect_err(&items);
+        let said: Vec<&str> = said.iter().map(|complaint| complaint.message.as_str()).collect();
+        assert_eq!(said, ["this divides by what is zero wherever the mechanism stands"], "{items}");
+    }
+    // Where a choice is made nothing is divided.
+    let chosen = "joint plane: Planar { parent: ground, child: coin, axis: Z }
+        output o = select(plane.x > 0.0, plane.x / (plane.y - plane.y), 2.0);";
+    let model = model_with("", &format!("{coin} {chosen}"));
+    assert!(analyse(&model).is_ok());
+}
+
+/// What meets where the mechanism is drawn does not have to stay together, where equations are of velocities alone.
+#[test]
+fn points_that_meet_at_the_start() {
+    for constraints in ["Reduced", "Multipliers"] {
+        let sled = model(&format!(
+            "constraint blade: Skate {{ blade: sled, along: [0, 3, 4], on: ground }}
+             force loss: Damper {{ between: [ground, sled], damping: 0.63 }}
+             formulation {{ constraints: {constraints} }}"
+        ));
+        assert!(compile(&sled).is_ok(), "{constraints}");
+    }
+}
+
 /// A disc that follows its height may come to lie flat, where its equations have no slopes: of what is left to move that says nothing.
 #[test]
 fn poses_without_slopes_say_nothing() {

@@ -65,7 +65,8 @@ pub(super) fn meeting(model: &Model, problem: &Problem, structure: &Structure) -
         message: "the two points meet wherever the loops are closed: a line between them has no direction".to_owned(),
         help: Some("let it act between other points, or leave it out".to_owned()),
     };
-    let complaints: Vec<Complaint> = match structure.closed.is_empty() {
+    // Equations of velocities alone hold no points together.
+    let complaints: Vec<Complaint> = match structure.closed.is_empty() || problem.equations.is_empty() {
         true => Vec::new(),
         false => open.iter().zip(&longest).filter(meets).map(complaint).collect(),
     };

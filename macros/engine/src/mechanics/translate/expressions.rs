@@ -237,8 +237,16 @@ impl Equations<'_> {
             },
             ExprNode::Div(a, b) => {
                 let divisor = self.known(b).scalar();
-                let factor = self.g.reciprocal(divisor);
                 let dividend = self.known(a);
+                if divisor == Scalar::ZERO {
+                    // Nothing by nothing is no number either.
+                    let nan = self.g.call(Call::Nan, &[]);
+                    return dividend.map(&mut self.g, &mut |g, part| match part {
+                        Part::Scalar(_) => Part::Scalar(nan),
+                        Part::Vector(_) => Part::Vector(g.vector([nan; 3])),
+                    });
+                }
+                let factor = self.g.reciprocal(divisor);
                 self.scaled(factor, &dividend)
             }
             ExprNode::Call(function, arguments) => {

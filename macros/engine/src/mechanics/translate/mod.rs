@@ -7,6 +7,7 @@ pub mod build;
 mod chain;
 pub(super) mod dependencies;
 pub(super) mod directions;
+pub(super) mod division;
 pub(super) mod expressions;
 pub(super) mod forces;
 pub(super) mod formulas;
