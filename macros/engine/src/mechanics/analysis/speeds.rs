@@ -177,8 +177,8 @@ impl Choice<'_> {
             let size = dot(&row, &row).sqrt();
             let left = without(row, &basis);
             let rest = dot(&left, &left).sqrt();
-            // What is no number is independent of nothing.
-            if !(rest > DEPENDENT * size) {
+            // What is no number depends on everything.
+            if rest.is_nan() || rest <= DEPENDENT * size {
                 return None;
             }
             basis.push(left.into_iter().map(|x| x / rest).collect());
