@@ -1,7 +1,9 @@
 //! Motions that are known, along runs of all four formulations: with multipliers and reduced, in rates and in speeds.
 
-use multibody::nalgebra::{UnitQuaternion, Vector3};
-use multibody::{Dop853, Integrator, Projection, WithProjection, multibody};
+use multibody::impact::impulse_at;
+use multibody::integrators::{Action, Event, Events};
+use multibody::nalgebra::{SVector, UnitQuaternion, Vector3};
+use multibody::{Dop853, Free, Integrator, Projection, Tangent, WithProjection, multibody, trim};
 
 use crate::speeds::{flat, with_rates};
 
@@ -54,6 +56,8 @@ four_ways!([coin_held, coin, coin_chosen, coin_beside], [x, y, yaw, lean, spin],
     output place = disc.position;
     output twist = [disc.velocity, disc.angular_velocity];
     output angles = [yaw, lean, spin];
+    output slip = roll.slip;
+    output jacobian = disc.jacobian;
     output energy = kinetic() + potential();
 }, {
     /// [rad/s]
@@ -194,4 +198,57 @@ fn a_disc_runs() {
         }
         assert_eq!(flat(&coin::Velocity::<f64>::default()).len(), 3);
     }
+}
+
+/// The steady motion of a lean and a heading is found in speeds, while place, heading and spin run, and an event tells when the heading
+/// crosses zero on it.
+#[test]
+fn a_disc_is_trimmed() {
+    struct North(Vec<f64>);
+    impl Events<coin_chosen::Model<f64>, 1> for North {
+        fn values(&self, _t: f64, state: &coin_chosen::State<f64>) -> [f64; 1] {
+            [state.q.yaw]
+        }
+        fn happened(&mut self, event: &Event, _: &coin_chosen::State<f64>) -> Action<coin_chosen::State<f64>> {
+            self.0.push(event.time);
+            Action::Continue
+        }
+    }
+    let model = coin_chosen::Model::<f64>::default();
+    let (m, r, a, c, g) = (0.7, 0.25, 0.011, 0.0219, 9.81);
+    for (lean, heading, yaw) in [(0.6_f64, 2.1, 0.9), (-0.4, 1.3, 0.5), (0.2, -3.0, -0.8)] {
+        let (sin, cos) = lean.sin_cos();
+        let mut guess = coin_chosen::State::<f64>::default();
+        (guess.q.x, guess.q.yaw, guess.q.lean, guess.q.spin) = (0.3, yaw, lean, 4.0);
+        // The whole turn along the axle is sought; across it stands the share of the heading.
+        (guess.v.two, guess.v.three) = (1.0, -heading * cos);
+        let mut velocity = coin_chosen::Velocity::zero();
+        velocity.two = 1.0;
+        let free = Free { position: coin_chosen::Rates::<f64>::zero(), velocity, states: (), input: () };
+        let found = trim(&model, 0.0, &guess, &(), &free).unwrap().state;
+        let whole = (a * heading * heading * sin * cos - m * g * r * sin) / ((c + m * r * r) * heading * cos);
+        assert!((found.v.two + whole).abs() < 1e-10 && found.v.one == 0.0, "{} {whole}", found.v.two);
+        let mut north = North(Vec::new());
+        Integrator::adaptive(Dop853, 1e-13, 1e-13)
+            .with_events(&model, 0.0, 1.0, &found, &(), &mut north, |_| ())
+            .unwrap();
+        assert!(north.0.len() == 1 && (north.0[0] - yaw / heading).abs() < 1e-9, "{:?}", north.0);
+    }
+}
+
+/// A blow does the same in rates and in speeds, and leaves no slip.
+#[test]
+fn a_disc_is_struck() {
+    let (held, beside) = (coin_held::Model::<f64>::default(), coin_beside::Model::<f64>::default());
+    let mut start = coin_held::State::<f64>::default();
+    (start.q.yaw, start.q.lean, start.q.spin, start.q.z) = (0.4, 0.5, 2.0, 0.25 * 0.5_f64.cos());
+    let mut other = coin_beside::State::<f64>::default();
+    (other.q.yaw, other.q.lean, other.q.spin, other.q.z) = (0.4, 0.5, 2.0, start.q.z);
+    let blow = SVector::<f64, 6>::from([0.3, -0.2, 0.1, 0.02, 0.05, -0.03]);
+    let [rates, speeds] = [held.outputs(0.0, &start, &()).jacobian, beside.outputs(0.0, &other, &()).jacobian];
+    let start = impulse_at(&held, 0.0, &start, &rates, &blow).unwrap().state;
+    let other = impulse_at(&beside, 0.0, &other, &speeds, &blow).unwrap().state;
+    let (one, two) = (held.outputs(0.0, &start, &()), beside.outputs(0.0, &other, &()));
+    assert!(one.twist[1].norm() > 0.1 && one.slip.amax() < 1e-13 && two.slip.amax() < 1e-13);
+    assert!(one.twist.iter().zip(&two.twist).all(|(a, b)| (a - b).amax() < 1e-12), "{:?} {:?}", one.twist, two.twist);
 }

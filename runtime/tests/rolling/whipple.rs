@@ -4,6 +4,8 @@
 use multibody::{Dop853, Free, Integrator, Projection, System, Tangent, WithProjection, multibody, trim};
 use serde_json::Value;
 
+use crate::speeds;
+
 bicycle!(whipple, {
     formulation { constraints: Multipliers }
     emit forward_dynamics, derivatives, constraints;
@@ -265,6 +267,50 @@ fn small_motions() {
     println!("rows {worst:.1e}, eigenvalues {worst_root:.1e}");
     assert_eq!(speeds, 21);
     assert!(worst < 1e-12 && worst_root < 1e-13, "{worst:e}, {worst_root:e}");
+}
+
+/// The same rows from the derivatives of the model in three velocities, whose height and pitch follow.
+#[test]
+fn small_motions_in_three_velocities() {
+    use multibody::nalgebra::{Matrix2, SVector};
+
+    let reference = data("whipple");
+    let matrix = |name: &str| Matrix2::from_fn(|i, j| number(&reference["matrices"][name][i][j]));
+    let [mass, c1, k0, k2] = ["M", "C1", "K0", "K2"].map(matrix);
+    let inverse = mass.try_inverse().unwrap();
+    let model = reduced::Model::<f64>::default();
+    let place = |list: SVector<f64, 3>| list.iter().position(|&x| x == 1.0).unwrap();
+    let velocity = |change: fn(&mut reduced::Velocity<f64>)| {
+        let mut one = reduced::Velocity::zero();
+        change(&mut one);
+        place(one.into())
+    };
+    let [roll, steer] = [velocity(|v| v.roll = 1.0), velocity(|v| v.steer = 1.0)];
+    let displacement = |change: fn(&mut reduced::Rates<f64>)| {
+        let mut one = reduced::Rates::zero();
+        change(&mut one);
+        speeds::flat(&one).iter().position(|&x| x == 1.0).unwrap()
+    };
+    let [along_roll, along_steer] = [displacement(|q| q.roll = 1.0), displacement(|q| q.steer = 1.0)];
+    let (mut worst, mut speeds) = (0.0_f64, 0);
+    for entry in reference["eigenvalues"].as_array().unwrap() {
+        let speed = number(&entry["v"]);
+        let mut state = reduced::State::<f64>::default();
+        state.v.spin_rear = -speed / 0.3;
+        let state = model.accepted(0.0, &state, &reduced::Input::default());
+        let slopes = model.forward_derivatives(0.0, &state, &reduced::Input::default());
+        let (stiff, damp) = (-inverse * (k0 * 9.81 + k2 * (speed * speed)), -inverse * c1 * speed);
+        let greatest = stiff.amax().max(damp.amax());
+        for (i, row) in [roll, steer].into_iter().enumerate() {
+            for (j, (along, by)) in [(along_roll, roll), (along_steer, steer)].into_iter().enumerate() {
+                let apart = [slopes.position[(row, along)] - stiff[(i, j)], slopes.velocity[(row, by)] - damp[(i, j)]];
+                worst = apart.iter().fold(worst, |worst, x| worst.max(x.abs() / greatest));
+            }
+        }
+        speeds += 1;
+    }
+    assert_eq!(speeds, 21);
+    assert!(worst < 1e-12, "{worst:e}");
 }
 
 /// Round in circles: the lean and the moments at handlebar and pedals that hold a steer angle and a speed, found while the place, the
