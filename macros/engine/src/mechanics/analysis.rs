@@ -12,6 +12,7 @@ mod closable;
 mod closed;
 mod closures;
 mod configurations;
+mod divisors;
 mod integrability;
 mod leaving;
 mod linear;
@@ -114,6 +115,7 @@ pub fn analyse(model: &Model) -> Result<Structure, Vec<Complaint>> {
             structure.notes.extend(notes);
         }
         structure.shared = shared::shared(model, problem, &structure);
+        analysis.complaints.extend(divisors::complaints(model, problem, &structure));
         match springs::meeting(model, problem, &structure) {
             Ok(held) => structure.meeting = held,
             Err(complaints) => analysis.complaints.extend(complaints),

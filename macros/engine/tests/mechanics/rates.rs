@@ -122,6 +122,29 @@ fn nothing_by_nothing() {
         let said: Vec<&str> = said.iter().map(|complaint| complaint.message.as_str()).collect();
         assert_eq!(said, ["this divides by what is zero wherever the mechanism stands"], "{items}");
     }
+    // Couplings keep the blade on end, loops the plane flat.
+    let level = "joint plane: Planar { parent: ground, child: coin, axis: Z }
+        body mid { mass: 1.0, inertia: diag(0.1, 0.1, 0.2) }
+        body blade { mass: 1.0, inertia: diag(0.1, 0.1, 0.2) }
+        joint lean: Revolute { parent: coin, child: mid, axis: X }
+        joint back: Revolute { parent: mid, child: blade, axis: X }
+        constraint level = lean + back;";
+    let flat = "joint plane: Planar { parent: ground, child: coin, axis: Z }
+        constraint roll: Skate { blade: coin, along: Z }
+        formulation { coordinates: Absolute(Quaternion) }";
+    for items in [
+        &format!("{level} constraint roll: Skate {{ blade: blade, along: Z }} formulation {{ constraints: Reduced }}"),
+        &format!("{level} constraint roll: Skate {{ blade: blade, along: Z }}"),
+        &format!("{level} output o = (lean * lean - back * back) / (lean + back);"),
+        flat,
+    ] {
+        let model = model_with("", &format!("{coin} {items}"));
+        let said = analyse(&model).expect_err(items);
+        let said: Vec<&str> = said.iter().map(|complaint| complaint.message.as_str()).collect();
+        assert_eq!(said, ["this divides by what is zero wherever loops are closed"], "{items}");
+    }
+    let meant = format!("{level} output o = lean / max(abs(lean + back), 1e-9);");
+    assert!(analyse(&model_with("", &format!("{coin} {meant}"))).is_ok());
     // Where a choice is made nothing is divided.
     let chosen = "joint plane: Planar { parent: ground, child: coin, axis: Z }
         output o = select(plane.x > 0.0, plane.x / (plane.y - plane.y), 2.0);";

@@ -259,11 +259,16 @@ impl ReductionSearch<'_> {
         let mut candidates: Vec<usize> = columns.to_vec();
         candidates.retain(|&k| !wished(k));
         // What stands alone in an equation is found without a guess, and well wherever the mechanism stands.
-        let is_explicit = |&column: &usize| {
-            let mut own = rows.iter().filter_map(|&row| self.row(row));
-            own.any(|row| self.explicit(&[row], &[self.coordinate(column)]).is_some())
-        };
-        let explicit: Vec<usize> = candidates.iter().copied().filter(is_explicit).collect();
+        let mut explicit: Vec<usize> = Vec::new();
+        for row in rows.iter().filter_map(|&row| self.row(row)) {
+            let stands_alone = |&&column: &&usize| {
+                !explicit.contains(&column) && self.explicit(&[row], &[self.coordinate(column)]).is_some()
+            };
+            // One for each equation: another one would have to follow from another equation.
+            let deepest =
+                candidates.iter().filter(stands_alone).max_by_key(|&&k| (self.depth(self.coordinate(k).joint), k));
+            explicit.extend(deepest);
+        }
         candidates
             .sort_by_key(|&k| std::cmp::Reverse((explicit.contains(&k), self.depth(self.coordinate(k).joint), k)));
         let parts: Vec<HashMap<usize, Vec<f64>>> = matrices

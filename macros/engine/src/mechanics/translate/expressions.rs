@@ -238,15 +238,14 @@ impl Equations<'_> {
             ExprNode::Div(a, b) => {
                 let divisor = self.known(b).scalar();
                 let dividend = self.known(a);
+                let factor = self.g.reciprocal(divisor);
                 if divisor == Scalar::ZERO {
-                    // Nothing by nothing is no number either.
-                    let nan = self.g.call(Call::Nan, &[]);
+                    // Nothing by nothing is no more a number than anything else by nothing, which is refused.
                     return dividend.map(&mut self.g, &mut |g, part| match part {
-                        Part::Scalar(_) => Part::Scalar(nan),
-                        Part::Vector(_) => Part::Vector(g.vector([nan; 3])),
+                        Part::Scalar(_) => Part::Scalar(factor),
+                        Part::Vector(_) => Part::Vector(g.vector([factor; 3])),
                     });
                 }
-                let factor = self.g.reciprocal(divisor);
                 self.scaled(factor, &dividend)
             }
             ExprNode::Call(function, arguments) => {
