@@ -32,7 +32,7 @@ multibody! {
         param ixx_f = 0.1405;
         param iyy_f = 0.28;
 
-                body ahead { mass: 0 }
+        body ahead { mass: 0 }
         body aside { mass: 0 }
         body below { mass: 0 }
         body headed { mass: 0 }
