@@ -29,8 +29,8 @@ fn line(built: &Built) -> String {
     )
 }
 
-/// What there is to say of the ways to close loops.
+/// What there is to say of loops: equations that are left out, and what the ways to close them cost.
 fn advice(built: &Built) -> String {
     let facts = emit::facts(&built.model, &built.structure, &built.compiled);
-    facts.advice.iter().map(|item| format!("  {item}\n")).collect()
+    facts.left_out.iter().chain(&facts.advice).map(|item| format!("  {item}\n")).collect()
 }

@@ -61,7 +61,7 @@ use mechanics::analysis::Complaint;
 use mechanics::loops::advice::Advice;
 use mechanics::loops::structure::Structure;
 use model::Soundness;
-use model::types::{Handling, Model, Request};
+use model::types::{Handling, Model, Request, SpeedChoice};
 use optimize::program::Compiled;
 use optimize::{Excess, Refusal};
 use syntax::tree::Source;
@@ -218,7 +218,7 @@ fn hash(text: &str) -> u64 {
 
 /// The model with the speeds that `speeds: Auto` stands for, from which all that follows goes on.
 pub fn chosen(model: &Model) -> Result<Cow<'_, Model>, Trouble> {
-    if !model.chooses_speeds {
+    if model.speed_choice != SpeedChoice::Open {
         return Ok(Cow::Borrowed(model));
     }
     guard("formulation", || formulation::with_speeds(model)).map(Cow::Owned).map_err(Trouble::Fault)

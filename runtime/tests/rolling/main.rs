@@ -10,5 +10,6 @@ mod blades;
 mod contacts;
 mod hinged;
 mod known;
+mod steered;
 mod wheels;
 mod whipple;

@@ -18,7 +18,7 @@ use crate::invariant::fault::{Fault, guard};
 use crate::mechanics;
 use crate::mechanics::loops::advice::{Advice, Closing, Figures};
 use crate::mechanics::loops::structure::Structure;
-use crate::model::types::{Handling, Model, Request};
+use crate::model::types::{Handling, Model, Request, SpeedChoice};
 use crate::optimize::effort::Effort;
 use crate::optimize::program::Compiled;
 use crate::optimize::{self, Refusal};
@@ -31,7 +31,7 @@ pub fn choose(model: &Model) -> ([Handling; 2], Option<Advice>) {
     if !has_loops(model) {
         return ([held, reduced], None);
     }
-    let figures = [&reduced, &held].map(|handling| figures(model, handling));
+    let figures = [&reduced, &held].map(|handling| figures_anew(model, handling));
     let [of_reduced, of_held] = &figures;
     let reduces = match (of_reduced, of_held) {
         (Ok(reduced), Ok(held)) => reduced.reduces(held),
@@ -72,7 +72,7 @@ pub fn advice(model: &Model, structure: &Structure, compiled: &Compiled) -> Opti
         Handling::Reduced => Handling::Multipliers,
         Handling::Multipliers | Handling::Stabilised { .. } | Handling::Auto => Handling::Reduced,
     };
-    let other = Some(figures(model, &other));
+    let other = Some(figures_anew(model, &other));
     Some(Advice { is_chosen: false, is_forward, own: Some(own), other, assumable, solvable })
 }
 
@@ -82,6 +82,16 @@ fn has_loops(model: &Model) -> bool {
 
 fn asks_forward(model: &Model) -> bool {
     model.emit.contains(&Request::ForwardDynamics)
+}
+
+/// What a model takes with its loops closed in one way. Speeds that were chosen for another may be too few: they are chosen again.
+fn figures_anew(model: &Model, handling: &Handling) -> Result<Figures, String> {
+    if model.speed_choice != SpeedChoice::Made {
+        return figures(model, handling);
+    }
+    let (speeds, handling) = (Vec::new(), handling.clone());
+    let open = with_speeds(&Model { speeds, speed_choice: SpeedChoice::Open, handling, ..model.clone() });
+    figures(&open, &open.handling)
 }
 
 /// What a model takes with its loops closed in one way, or why it is refused.

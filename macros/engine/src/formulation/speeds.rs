@@ -7,7 +7,7 @@
 
 use crate::mechanics::analysis::{analyse, clear_speeds};
 use crate::model::free_bodies::Speeds;
-use crate::model::types::{Handling, Model};
+use crate::model::types::{Handling, Model, SpeedChoice};
 
 use super::{Figures, choose, figures};
 
@@ -27,7 +27,7 @@ struct Choice {
 
 /// The model with its speeds, and a remark on the choice.
 pub fn with_speeds(model: &Model) -> Model {
-    let plain = Model { chooses_speeds: false, ..model.clone() };
+    let plain = Model { speed_choice: SpeedChoice::Written, ..model.clone() };
     let handling = match plain.handling {
         Handling::Auto => choose(&plain).0[0].clone(),
         _ => plain.handling.clone(),
@@ -58,6 +58,7 @@ pub fn with_speeds(model: &Model) -> Model {
     let best = (0..choices.len()).min_by_key(|&k| work(&choices[k])).unwrap_or(0);
     let remark = remark(&choices, best);
     let mut chosen = choices.swap_remove(best).model;
+    chosen.speed_choice = SpeedChoice::Made;
     chosen.remarks.extend(remark);
     chosen
 }

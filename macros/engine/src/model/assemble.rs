@@ -20,7 +20,7 @@ use super::items::solves::SolveItem;
 use super::topology::Topology;
 use super::types::{
     Bodies, Body, Constraint, Coordinate, Drive, Expr, Force, Handling, Input, Joint, Joints, Kinematics, Model,
-    Output, Packs, Param, Request, Solve, Speed, State, Type,
+    Output, Packs, Param, Request, Solve, Speed, SpeedChoice, State, Type,
 };
 use super::units::Units;
 
@@ -137,7 +137,7 @@ impl<'a> Checker<'a, '_> {
             rounds: collected.rounds,
             packs: collected.packs.unwrap_or_default(),
             speeds: all(collected.speeds)?,
-            chooses_speeds: collected.chooses_speeds.is_some(),
+            speed_choice: if collected.chooses_speeds.is_some() { SpeedChoice::Open } else { SpeedChoice::Written },
             independent: loops.independent,
             remarks,
             small: loops.small,
@@ -182,7 +182,7 @@ impl<'a> Checker<'a, '_> {
             rounds: None,
             packs: Packs::default(),
             speeds: Vec::new(),
-            chooses_speeds: false,
+            speed_choice: SpeedChoice::Written,
             independent: Vec::new(),
             remarks: Vec::new(),
             small: Vec::new(),

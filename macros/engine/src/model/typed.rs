@@ -154,7 +154,8 @@ impl Allowed {
             Allowed::Positions => {
                 matches!(class, Class::Parameter | Class::Mass | Class::Time | Class::Formula | Class::Position)
             }
-            Allowed::Constraint | Allowed::Speed => class == Class::State || Allowed::Positions.contains(class),
+            Allowed::Constraint => class == Class::Own || Allowed::Speed.contains(class),
+            Allowed::Speed => class == Class::State || Allowed::Positions.contains(class),
             Allowed::Forces => !matches!(class, Class::Acceleration | Class::Load),
             Allowed::Springs => !matches!(class, Class::Potential | Class::Acceleration | Class::Load),
         }
@@ -203,15 +204,19 @@ impl Allowed {
             (Allowed::Positions, Class::Own) => {
                 "is a state, whose rate may jump; only positions, parameters and time may stand here"
             }
-            (Allowed::Constraint | Allowed::Speed, Class::Own) => {
+            (Allowed::Speed, Class::Own) => {
                 "is a state, whose rate may jump; only positions, velocities, parameters and time may stand here"
             }
-            (Allowed::Constraint | Allowed::Speed, Class::Input) => {
+            (Allowed::Constraint, Class::Input) => {
+                "is an input, whose rate nobody knows; beside velocities a `state` that follows it may stand here"
+            }
+            (Allowed::Speed, Class::Input) => {
                 "is an input, whose rate nobody knows; positions, velocities, parameters and time may stand here"
             }
-            (Allowed::Constraint | Allowed::Speed, _) => {
-                "is no position and no velocity; only these, parameters and time may stand here"
+            (Allowed::Constraint, _) => {
+                "is no position and no velocity; only these, parameters, time and, beside velocities, states may stand here"
             }
+            (Allowed::Speed, _) => "is no position and no velocity; only these, parameters and time may stand here",
             (Allowed::Positions, Class::Input) => "is an input; only positions, parameters and time may stand here",
             (Allowed::Positions, _) => "is no position; only positions, parameters and time may stand here",
             (Allowed::Constants, _) => "changes in time; only literals and `const` may stand here",

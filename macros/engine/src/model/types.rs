@@ -83,8 +83,8 @@ pub struct Model {
     pub packs: Packs,
     /// Velocity coordinates of the user's choice, in source order.
     pub speeds: Vec<Speed>,
-    /// They are to be chosen; nothing behind [`crate::formulation`] sees it.
-    pub chooses_speeds: bool,
+    /// Nothing behind [`crate::formulation`] sees it.
+    pub speed_choice: SpeedChoice,
     /// Coordinates that `formulation { independent: [..] }` names.
     pub independent: Vec<Coordinate>,
     /// Said in the report: items that another choice of coordinates has made void, such as a `#[cut]` in the tree; choices that were made
@@ -806,6 +806,18 @@ pub enum Variable {
     /// With the place of the scalar among all of it.
     Param(ParamId, usize),
     Input(InputId, usize),
+}
+
+/// Who chooses a model's speeds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum SpeedChoice {
+    /// Its writer has: those that are listed, else the rates of coordinates.
+    #[default]
+    Written,
+    /// They are to be chosen: `speeds: Auto`.
+    Open,
+    /// They are listed, and were chosen for one way to close loops.
+    Made,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -86,7 +86,7 @@ pub fn empty(module: &str) -> Model {
         rounds: None,
         packs: Packs::default(),
         speeds: Vec::new(),
-        chooses_speeds: false,
+        speed_choice: SpeedChoice::Written,
         independent: Vec::new(),
         remarks: Vec::new(),
         small: Vec::new(),

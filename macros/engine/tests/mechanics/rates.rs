@@ -122,6 +122,41 @@ fn nothing_by_nothing() {
         let said: Vec<&str> = said.iter().map(|complaint| complaint.message.as_str()).collect();
         assert_eq!(said, ["this divides by what is zero wherever the mechanism stands"], "{items}");
     }
+    // Powers and logarithms are poles too, and so is what no position tells.
+    for (output, what) in [
+        ("(plane.x - plane.x) * powi(norm(coin.position - coin.position), -1)", "a negative power of"),
+        ("(plane.x - plane.x) * powf(plane.y - plane.y, -0.5)", "a negative power of"),
+        ("(plane.x - plane.x) * ln(plane.y - plane.y)", "the logarithm of"),
+    ] {
+        let items =
+            format!("{coin} joint plane: Planar {{ parent: ground, child: coin, axis: Z }} output o = {output};");
+        let said = analyse(&model_with("", &items)).expect_err(output);
+        assert_eq!(said[0].message, format!("this is {what} what is zero wherever the mechanism stands"), "{output}");
+    }
+    for divisor in ["t - t", "plane.x.rate - plane.x.rate", "push - push", "norm(cross(coin.velocity, coin.velocity))"]
+    {
+        let items = format!(
+            "{coin} joint plane: Planar {{ parent: ground, child: coin, axis: Z }}
+             input push: Scalar; output o = plane.x / ({divisor});"
+        );
+        let said = analyse(&model_with("", &items)).expect_err(divisor);
+        assert_eq!(said[0].message, "this divides by what is zero wherever the mechanism stands", "{divisor}");
+    }
+    // Drives keep the disc flat and the blade on end, in oblique axes.
+    for kept in [
+        "drive lean = 0.0; constraint roll: Rolling { wheel: wheel, axis: [1, 2, 2], radius: 0.3, on: ground.rotated([2, -1, 1], 0.4) }",
+        "drive lean = 0.3 * (t - t); constraint roll: Skate { blade: wheel, along: [1, 2, 2], on: ground.rotated([2, -1, 1], 0.4) }",
+    ] {
+        let items = format!(
+            "{coin} body wheel {{ mass: 1.0, inertia: diag(0.1, 0.1, 0.2) }}
+             joint plane: Planar {{ parent: ground.rotated([2, -1, 1], 0.4), child: coin, axis: Z }}
+             joint lean: Revolute {{ parent: coin, child: wheel.rotated([2, -1, 0] / norm([2, -1, 0]), -acos(2.0 / 3.0)), axis: X }}
+             {kept}"
+        );
+        let said = analyse(&model_with("", &items)).expect_err(kept);
+        let said: Vec<&str> = said.iter().map(|complaint| complaint.message.as_str()).collect();
+        assert_eq!(said, ["this divides by what is zero wherever drives keep the mechanism"], "{kept}");
+    }
     // Couplings keep the blade on end, loops the plane flat.
     let level = "joint plane: Planar { parent: ground, child: coin, axis: Z }
         body mid { mass: 1.0, inertia: diag(0.1, 0.1, 0.2) }
@@ -207,7 +242,7 @@ fn mistakes() {
         ),
         (
             "constraint one = sled.express(sled.velocity).y; constraint two = 2.0 * sled.express(sled.velocity).y - 0.1;",
-            "the constraint `two` contradicts others: their velocities leave none for it",
+            "the constraint `two` contradicts `one`: their velocities leave none for it",
         ),
         (
             "constraint c = linear_momentum().x;",
@@ -242,6 +277,8 @@ fn what_may_be_independent_is_refused() {
         "constraint one = plane.x.rate; constraint two = plane.x.rate + table(plane.x, [10.0, 11.0], [0.0, 1.0]) * plane.y.rate;",
         "constraint one = plane.x.rate; constraint two = plane.x.rate + select(t > 9.0, 1.0, 0.0) * plane.y.rate;",
         "param k = 2.0; constraint one = plane.x.rate; constraint two = plane.x.rate + max(k - 5.0, 0.0) * plane.y.rate;",
+        "state s: rate = 1.0, start: 0.0; constraint one = plane.x.rate; constraint two = plane.x.rate + s;",
+        "state s: rate = 1.0, start: 0.0; constraint one = plane.x.rate; constraint two = plane.x.rate + max(s - 9.0, 0.0) * plane.y.rate;",
         "constraint one = plane.x - 0.3 * plane.y; constraint two = plane.x.rate - 0.3 * plane.y.rate - 0.1 * sin(t);",
         "constraint one = plane.x - 0.3 * t; constraint two = plane.x.rate - 0.4;",
         "constraint one = plane.x; constraint two = plane.x + max(plane.y - 50.0, 0.0) * plane.y;",
@@ -249,6 +286,36 @@ fn what_may_be_independent_is_refused() {
         let told = complaints(items);
         assert!(told.contains("wherever it was looked at"), "{items}: {told}");
     }
+}
+
+/// States may stand anywhere: what vanishes where they start says nothing.
+#[test]
+fn states_are_anywhere() {
+    let steered = model(
+        "state s: rate = 1.0, start: 0.0; constraint one = plane.x.rate; constraint two = plane.x.rate + sin(s) * plane.y.rate;",
+    );
+    assert_eq!(names(&steered, &sound(&steered).rows), ["one", "two"]);
+    for constraints in ["Reduced", "Multipliers"] {
+        let car = model(&format!(
+            "input wish: Scalar; state s: rate = 3.0 * (wish - s) + 0.1 * plane.x.rate, start: 0.0;
+             constraint rear = sled.express(sled.velocity).y;
+             constraint front = cos(s) * sled.express(sled.at(0.7 * X).velocity).y - sin(s) * sled.express(sled.velocity).x;
+             formulation {{ constraints: {constraints} }}"
+        ));
+        assert!(compile(&car).is_ok(), "{constraints}");
+    }
+}
+
+/// Whom a redundant equation follows from is told, and whom it doesn't is not.
+#[test]
+fn partners_are_named() {
+    let model = model(
+        "constraint one = plane.x.rate - 0.3 * plane.angle.rate;
+         constraint other = plane.y.rate;
+         constraint two = 0.6 * plane.angle.rate - 2.0 * plane.x.rate;",
+    );
+    let notes = sound(&model).notes.join("; ");
+    assert!(notes.contains("left out: `two` (from `one`);"), "{notes}");
 }
 
 /// A force that rigid bodies leave open, and one that is nowhere.

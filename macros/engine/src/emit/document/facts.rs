@@ -31,6 +31,8 @@ pub struct Facts {
     pub closings: Vec<ClosingFact>,
     /// How loops are closed, what is driven, left out and assumed.
     pub loops: Vec<String>,
+    /// What is left out of them; it stands among `loops` too.
+    pub left_out: Option<String>,
     /// What the ways to close loops cost, where that was asked for. It stands among `loops` too.
     pub advice: Vec<String>,
     /// What stands in the model several times.
@@ -118,6 +120,7 @@ impl Facts {
             constraints: model.constraints.iter().map(|constraint| layout.name(&constraint.place)).collect(),
             closings: loops::closings(layout),
             loops: loops::items(context),
+            left_out: loops::left_out(context),
             advice: advice::items(context),
             repeated: layout.structure.groups.iter().map(|group| group.sentence()).collect(),
             coordinates: layout.coordinates(),

@@ -87,13 +87,18 @@ pub(super) fn items(context: &Context<'_>) -> Vec<String> {
         };
         format!("{} is driven: {}", quoted(&target), quoted(&formula::text(layout, &drive.value)))
     }));
-    let dropped = structure.dropped.iter().map(|row| quoted(&layout.row(*row)));
-    items.extend(listed(dropped).map(|names| format!("left out, since they follow from the other equations: {names}")));
+    items.extend(left_out(context));
     let assumed = model.assumptions.iter();
     items.extend(assumed.map(|condition| format!("assumed: {}", quoted(&formula::text(layout, condition)))));
     items.extend(structure.notes.iter().chain(&model.remarks).cloned());
     items.extend(advice::items(context));
     alike::once(items.iter().map(|item| item.replace('\n', " ")).collect())
+}
+
+/// Equations that say nothing beside the others.
+pub(super) fn left_out(context: &Context<'_>) -> Option<String> {
+    let dropped = context.layout.structure.dropped.iter().map(|row| quoted(&context.layout.row(*row)));
+    listed(dropped).map(|names| format!("left out, since they follow from the other equations: {names}"))
 }
 
 /// The report's section; nothing for a model without loops and drives.

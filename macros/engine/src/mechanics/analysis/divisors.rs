@@ -5,7 +5,7 @@
 //! and loops make of a quotient may be zero by zero on the graph, which would say nothing.
 
 use crate::mechanics::loops::structure::Structure;
-use crate::mechanics::translate::division::{complaint, quotients, told};
+use crate::mechanics::translate::division::{is_of_positions, poles, told};
 use crate::model::types::Model;
 use crate::symbolic::graph::Scalar;
 use crate::symbolic::lower::Lowering;
@@ -23,12 +23,12 @@ const NOTHING: f64 = 1e-7;
 const SAME: f64 = 1.001;
 
 pub(super) fn complaints(model: &Model, problem: &Problem, structure: &Structure) -> Vec<Complaint> {
-    let quotients = quotients(model);
-    if quotients.is_empty() || structure.closed.len() < 2 {
+    let poles = poles(model, is_of_positions);
+    if poles.is_empty() || structure.closed.len() < 2 {
         return Vec::new();
     }
     let mut e = Equations::plain(model);
-    let roots: Vec<Scalar> = quotients.iter().map(|(_, divisor)| e.scalar(divisor)).collect();
+    let roots: Vec<Scalar> = poles.iter().map(|pole| e.scalar(pole.divisor)).collect();
     let mut lowering = Lowering::new(&e.g);
     let roots = lowering.run(&roots);
     let tape = Tape::new(&lowering.to, &roots);
@@ -55,6 +55,6 @@ pub(super) fn complaints(model: &Model, problem: &Problem, structure: &Structure
         let most = anywhere[*k].1;
         most > 0.0 && closed[*k].1 <= NOTHING * most && !is_meant(closed[*k])
     };
-    let found = (0..quotients.len()).filter(vanishes);
-    told(found.map(|k| complaint(quotients[k].0, "wherever loops are closed")))
+    let found = (0..poles.len()).filter(vanishes);
+    told(found.map(|k| poles[k].complaint("wherever loops are closed")))
 }

@@ -10,7 +10,7 @@
 //! "Integrates" is said where it holds at several closed configurations at random, at a time of their own, and with parameters
 //! moved too, or it is said that it does so at the declared ones: of analytic functions that is right but for a chance of
 //! zero. "None" is proven by one configuration. Of functions in pieces, which hold where they were looked at alone, nothing is said, and
-//! nothing where numbers leave a doubt. Constraints read no states and no inputs, so the forms are all there is.
+//! nothing where numbers leave a doubt, or where equations read states, which are no positions.
 
 mod frame;
 mod transport;
@@ -56,7 +56,8 @@ pub(super) fn notes(model: &Model, problem: &Problem, structure: &Structure) -> 
         .filter(|&k| structure.rows.iter().chain(&structure.rates.rows).any(|row| *row == problem.rates[k].row))
         .collect();
     let analytic = (0..problem.equations.len()).all(|k| problem.is_analytic(k));
-    if kept.is_empty() || !analytic || !problem.are_rates_analytic() || !problem.are_drives_analytic() {
+    let stateless = !problem.do_rates_read_states();
+    if kept.is_empty() || !stateless || !analytic || !problem.are_rates_analytic() || !problem.are_drives_analytic() {
         return Vec::new();
     }
     let survey = Survey::new(problem, structure);

@@ -131,6 +131,8 @@ pub(super) struct Problem {
     positions: Vec<Vec<usize>>,
     /// Its symbol.
     time: Option<usize>,
+    /// Symbols of the user's own states.
+    states: Vec<usize>,
     /// By symbol the parameter that it is, and the element.
     parameters: Vec<Option<(usize, usize)>>,
     pub(super) defaults: Vec<f64>,
@@ -234,6 +236,16 @@ impl Problem {
         if let Some(slot) = self.time.and_then(|symbol| point.0.get_mut(symbol)) {
             *slot = time;
         }
+    }
+
+    /// Own states are what they are: equations of velocities may read them.
+    pub(super) fn put_states(&self, point: &mut Point, random: &mut Random) {
+        self.states.iter().for_each(|&symbol| point.0[symbol] += random.next());
+    }
+
+    /// Values of the states at a point put into another.
+    pub(super) fn take_states(&self, point: &mut Point, from: &Point) {
+        self.states.iter().for_each(|&symbol| point.0[symbol] = from.0[symbol]);
     }
 
     /// Time at a point, if it has a say.
@@ -385,8 +397,15 @@ impl Problem {
 
     /// Whether equations of velocities are the same functions everywhere, and at all times.
     pub(super) fn are_rates_plain(&self) -> bool {
-        let timed = |root: usize| self.time.is_some_and(|time| self.tape.symbols(root).contains(&time));
-        self.are_rates_analytic() && !self.rates.iter().flat_map(Rate::roots).any(timed)
+        let varies = |symbol: &usize| Some(*symbol) == self.time || self.states.contains(symbol);
+        let varied = |root: usize| self.tape.symbols(root).iter().any(varies);
+        self.are_rates_analytic() && !self.rates.iter().flat_map(Rate::roots).any(varied)
+    }
+
+    /// Whether one of them reads states of the user's own.
+    pub(super) fn do_rates_read_states(&self) -> bool {
+        let is_state = |root: usize| self.tape.symbols(root).iter().any(|symbol| self.states.contains(symbol));
+        self.rates.iter().flat_map(Rate::roots).any(is_state)
     }
 
     /// Whether equations of velocities are the same functions everywhere.

@@ -3,7 +3,7 @@
 //! In: the equations as numbers, closed configurations. Out: all of them behind those of positions, but for what depends on
 //! equations before it, of positions or of velocities, in all these configurations and asks for the same: rows of analytic
 //! functions that depend on each other at random poses, and with other parameters, do so everywhere. Where the functions are in
-//! pieces, follow time or drives, or are what they are for the declared parameters alone, poses prove nothing. Such a row is refused:
+//! pieces, follow time, drives or states of the user's own, or are what they are for the declared parameters alone, poses prove nothing. Such a row is refused:
 //! rounding would decide which of the rows is kept, and positions are moved by rows of positions alone.
 
 use crate::invariant::fault::raise;
@@ -45,7 +45,7 @@ pub(super) fn keep(model: &Model, problem: &Problem, structure: &mut Structure) 
     let (mut kept, mut names, mut complaints) = (Vec::new(), Vec::new(), Vec::new());
     let points = points(problem, structure);
     let before = structure.clone();
-    let judge = Judge { problem, structure: &before, points: &points };
+    let judge = Judge { model, problem, structure: &before, points: &points };
     let proof = judge.is_proof();
     for (number, rate) in problem.rates.iter().enumerate() {
         let name = row_name(model, rate.row.closing, rate.row.index);
@@ -63,21 +63,27 @@ pub(super) fn keep(model: &Model, problem: &Problem, structure: &mut Structure) 
         }
         let robust =
             || judge.at_all(&Problem::with(model, OFF), number, &kept).iter().all(|&one| one == Beside::Follows);
+        let partners = judge.partners(number, &kept);
         if proof && found.iter().all(|&one| one == Beside::Follows) && robust() {
-            names.push(format!("`{name}`"));
+            let from = partners.map_or(String::new(), |partners| format!(" (from {partners})"));
+            names.push(format!("`{name}`{from}"));
             structure.dropped.push(rate.row);
             continue;
         }
+        let others = || partners.unwrap_or_else(|| "others".to_owned());
         let LoopClosure::Constraint(id) = rate.row.closing else { raise("equations of velocities are constraints") };
         let (message, help) = match () {
             () if !judge.moves(number) => {
                 (format!("the constraint `{name}` is of velocities, but none that is free has a say in it"), None)
             }
             () if proof && found.contains(&Beside::Contradicts) => {
-                (format!("the constraint `{name}` contradicts others: their velocities leave none for it"), None)
+                (format!("the constraint `{name}` contradicts {}: their velocities leave none for it", others()), None)
             }
             () => (
-                format!("the constraint `{name}` follows from others, or contradicts them, wherever it was looked at"),
+                format!(
+                    "the constraint `{name}` follows from {}, or contradicts that, wherever it was looked at",
+                    others()
+                ),
                 Some(
                     "whether it does so with any parameters, at any time and in all pieces of its functions is not known: leave it out, or an \
                       equation that it depends on",
@@ -106,7 +112,10 @@ pub(super) fn points(problem: &Problem, structure: &Structure) -> Vec<Point> {
     if problem.equations.is_empty() || points.is_empty() {
         points = (0..POSES).map(|_| problem.start(&mut random, 1.0)).collect();
     }
-    points.iter_mut().for_each(|point| problem.put_time(point, LATE * random.next().abs()));
+    for point in &mut points {
+        problem.put_time(point, LATE * random.next().abs());
+        problem.put_states(point, &mut random);
+    }
     let mut values = Values::default();
     let clear: Vec<bool> = points.iter().map(|point| problem.has_slopes(point, &mut values)).collect();
     // Nowhere any slopes: then all that is said of them fails.
@@ -118,6 +127,7 @@ pub(super) fn points(problem: &Problem, structure: &Structure) -> Vec<Point> {
 }
 
 struct Judge<'a> {
+    model: &'a Model,
     problem: &'a Problem,
     structure: &'a Structure,
     points: &'a [Point],
@@ -149,6 +159,21 @@ impl Judge<'_> {
         })
     }
 
+    /// The names of equations of velocities without any one of which this would be independent; nothing where there are none, as where
+    /// it depends on positions alone.
+    fn partners(&self, number: usize, kept: &[usize]) -> Option<String> {
+        let needed = |without: &&usize| {
+            let rest: Vec<usize> = kept.iter().copied().filter(|k| k != *without).collect();
+            self.at_all(self.problem, number, &rest).contains(&Beside::Independent)
+        };
+        let name = |&k: &usize| {
+            let row = self.problem.rates[k].row;
+            format!("`{}`", row_name(self.model, row.closing, row.index))
+        };
+        let names: Vec<String> = kept.iter().filter(needed).map(name).collect();
+        (!names.is_empty()).then(|| names.join(", "))
+    }
+
     /// The greatest length of its row.
     fn scale(&self, number: usize) -> f64 {
         let mut values = Values::default();
@@ -160,9 +185,10 @@ impl Judge<'_> {
 
     fn beside(&self, problem: &Problem, point: &Point, number: usize, kept: &[usize]) -> Beside {
         // Parameters are part of a point: those of the other set are put in.
-        let time = problem.time_at(point);
-        let mut point = problem.at(&problem.positions(point));
-        time.into_iter().for_each(|time| problem.put_time(&mut point, time));
+        let mut own = problem.at(&problem.positions(point));
+        problem.time_at(point).into_iter().for_each(|time| problem.put_time(&mut own, time));
+        problem.take_states(&mut own, point);
+        let point = own;
         let mut values = Values::default();
         let dense = |row: &[(usize, f64)]| {
             let mut dense = vec![0.0; problem.columns.len()];

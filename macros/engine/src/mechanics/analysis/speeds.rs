@@ -52,6 +52,9 @@ pub(super) fn choose(model: &Model, problem: &Problem, structure: &mut Structure
     structure.rates.unknowns = held;
     if !model.speeds.is_empty() {
         let Some(rests) = choice.motions(true) else { return vec![choice.dependent_speeds()] };
+        if let Some(point) = choice.without_speeds() {
+            return vec![Choice { points: &[point], ..choice }.speeds_in_pieces()];
+        }
         let read = choice.read();
         let open: Vec<Coordinate> = free.iter().copied().filter(|coordinate| !read.contains(coordinate)).collect();
         let Some((others, left)) = choice.others(&rests, &open) else { return vec![choice.too_few()] };
@@ -261,10 +264,47 @@ impl Choice<'_> {
         Complaint { at: self.model.site(), message: message.to_owned(), help: Some(help.to_owned()) }
     }
 
-    /// The first speed that depends on what stands before it.
+    /// A pose at which speeds depend on each other, if it isn't a single one: one of those drawn at random may be met by accident, the
+    /// first one by choice. So it is with a speed that is nothing on one side of a limit.
+    fn without_speeds(&self) -> Option<Point> {
+        let depend = |point: &&Point| self.motions_at(point, false).is_some() && self.motions_at(point, true).is_none();
+        self.points.iter().skip(1).filter(depend).nth(1).cloned()
+    }
+
+    fn speeds_in_pieces(&self) -> Complaint {
+        let (first, _) = self.first_dependent();
+        let name = coordinate_name(self.model, self.model.coordinate_of(first));
+        Complaint {
+            at: self.model.speeds[first].site(),
+            message: format!(
+                "in many poses the speed `{name}` tells nothing that is not known without it, so rates are left open there"
+            ),
+            help: Some("speeds have to determine the rates that they read in all poses but single ones".to_owned()),
+        }
+    }
+
     fn dependent_speeds(&self) -> Complaint {
         let model = self.model;
-        let count = model.speeds.len();
+        let (first, is_empty) = self.first_dependent();
+        let name = coordinate_name(model, model.coordinate_of(first));
+        let (message, help) = match is_empty {
+            true => {
+                (format!("the speed `{name}` is of velocities that are given: none that is free has a say in it"), None)
+            }
+            false => {
+                // Equations that keep multipliers hold nothing here.
+                let held = self.points.iter().any(|point| !self.rows_at(point, false).is_empty());
+                let and = if held { " and from the constraints" } else { "" };
+                let message = format!("the speed `{name}` follows from other speeds{and}");
+                (message, Some("speeds have to be independent of each other".to_owned()))
+            }
+        };
+        Complaint { at: model.speeds[first].site(), message, help }
+    }
+
+    /// The first speed that depends on what stands before it, and whether it is nothing.
+    fn first_dependent(&self) -> (usize, bool) {
+        let count = self.model.speeds.len();
         // What is left of a speed behind the rows before it, and its length.
         let left = |point: &Point, number: usize| {
             let mut rows = self.rows_at(point, true);
@@ -284,20 +324,7 @@ impl Choice<'_> {
         let everywhere =
             |number: usize, is: fn((f64, f64)) -> bool| self.points.iter().all(|point| is(left(point, number)));
         let first = (0..count).find(|&number| everywhere(number, |(left, size)| left <= DEPENDENT * size)).unwrap_or(0);
-        let name = coordinate_name(model, model.coordinate_of(first));
-        let (message, help) = match everywhere(first, |(_, size)| size == 0.0) {
-            true => {
-                (format!("the speed `{name}` is of velocities that are given: none that is free has a say in it"), None)
-            }
-            false => {
-                // Equations that keep multipliers hold nothing here.
-                let held = self.points.iter().any(|point| !self.rows_at(point, false).is_empty());
-                let and = if held { " and from the constraints" } else { "" };
-                let message = format!("the speed `{name}` follows from other speeds{and}");
-                (message, Some("speeds have to be independent of each other".to_owned()))
-            }
-        };
-        Complaint { at: model.speeds[first].site(), message, help }
+        (first, everywhere(first, |(_, size)| size == 0.0))
     }
 
     fn too_few(&self) -> Complaint {

@@ -67,7 +67,6 @@ impl Equations<'_> {
     /// velocities by accelerations where these are read.
     fn seeds_of_time(&mut self, of: &Value, accelerated: bool) -> Seeds {
         let mut seeds = self.seeds(1);
-        let model = self.scene.model;
         let states = self.scene.symbols.states.clone();
         let mut read = vec![false; states.len()];
         of.map(&mut self.g, &mut |g, part| {
@@ -78,10 +77,7 @@ impl Equations<'_> {
             read.iter_mut().zip(by).for_each(|(read, by)| *read |= by);
             part
         });
-        for (id, state) in model.states.iter().enumerate().filter(|&(id, _)| read[id]) {
-            let rate = self.scalar(&state.rate);
-            seeds.push((states[id], rate));
-        }
+        seeds.extend(self.seeds_of_states(&read));
         if accelerated {
             let velocities = self.scene.symbols.velocities.concat();
             let accelerations = self.accelerations();

@@ -37,6 +37,13 @@ impl Equations<'_> {
         seeds
     }
 
+    /// Own states that are read, with their rates.
+    pub(in crate::mechanics) fn seeds_of_states(&mut self, read: &[bool]) -> Seeds {
+        let (model, states) = (self.scene.model, self.scene.symbols.states.clone());
+        let read = model.states.iter().zip(states).zip(read).filter(|(_, read)| **read);
+        read.map(|((state, symbol), _)| (symbol, self.scalar(&state.rate))).collect()
+    }
+
     /// d/dt of scalars that depend on positions and time.
     pub fn time_derivative(&mut self, list: &[Scalar]) -> Vec<Scalar> {
         let seeds = self.seeds(1);

@@ -40,6 +40,14 @@ impl<'a> Checker<'a, '_> {
         let (name, kind) = match &slot.item.kind {
             ItemKind::ConstraintValue { name, value } => {
                 let value = self.scalar(value, context, Allowed::Constraint);
+                // The rate of a state may jump, and velocities with it where an equation of positions reads the state.
+                let value = value.filter(|value| {
+                    let is_of_velocities = value.uses.culprit(Class::State).is_some();
+                    let refused = if is_of_velocities { None } else { value.uses.refusal(Allowed::Positions) };
+                    let is_right = refused.is_none();
+                    refused.into_iter().for_each(|(span, message)| self.report.error(span, message));
+                    is_right
+                });
                 let kind = |value: Typed| match value.uses.culprit(Class::State) {
                     Some(_) => ConstraintKind::Rate(value.expr),
                     None => ConstraintKind::Value(value.expr),

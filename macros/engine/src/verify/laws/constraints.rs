@@ -1,9 +1,10 @@
 //! Stage `verify`: constraint equations, their Jacobian, their rates, and what is left of their second derivatives.
 
 use crate::contracts::function::FunctionKind;
+use crate::contracts::results::Slot;
 use crate::contracts::symbol::Symbol;
 use crate::mechanics::loops::constraints::is_rate;
-use crate::model::types::Handling;
+use crate::model::types::{Handling, StateId};
 use crate::symbolic::doubled::Doubled;
 use crate::verify::trace::Slopes;
 
@@ -120,7 +121,7 @@ impl At<'_, '_> {
         self.rate_of(FunctionKind::ConstraintRate, FunctionKind::ConstraintBias, &r)
     }
 
-    /// Slopes by positions and time, times velocities, while these stand.
+    /// Slopes by positions, time and own states, times their rates, while velocities stand.
     fn rate_of(&mut self, of: FunctionKind, rate: FunctionKind, r: &[f64]) -> Judged {
         let rows = self.laws.structure.rows.len();
         if rows == 0 || !self.has(of) || !self.has(rate) {
@@ -135,6 +136,18 @@ impl At<'_, '_> {
         self.values(rate)?.iter().zip(r).for_each(|(&x, &r)| sum.product(&[x, Doubled::new(r)]));
         self.displacements(&slopes).iter().zip(&v).for_each(|(&x, &v)| sum.product(&[-x, v]));
         sum.add(-self.slope(&slopes, Symbol::Time));
+        let of_states: Vec<Doubled> = (0..self.laws.model.states.len())
+            .map(|k| self.slope(&slopes, Symbol::State { state: StateId(k) }))
+            .collect();
+        if of_states.iter().any(|slope| slope.high != 0.0) {
+            let forward = FunctionKind::ForwardDynamics;
+            if !self.has(forward) {
+                return Some(None);
+            }
+            let place = self.place(forward, Slot::States);
+            let rates = self.values(forward)?.get(place).unwrap_or_default().to_vec();
+            of_states.iter().zip(&rates).for_each(|(&slope, &rate)| sum.product(&[-slope, rate]));
+        }
         if sum.holds() != Some(true) {
             sum.bound = self.bound(rate, r) + slopes.bound;
         }

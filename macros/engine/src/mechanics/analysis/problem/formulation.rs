@@ -81,6 +81,9 @@ pub(super) fn formulate(model: &Model, off: f64, writing: Writing) -> Problem {
     let tape = Tape::new(&lowering.to, &roots);
     let parameters = parameters(&e.scene.symbols);
     let time = e.scene.symbols.table.iter().position(|symbol| matches!(symbol, Symbol::Time));
+    let states = (0..e.scene.symbols.table.len())
+        .filter(|&k| matches!(e.scene.symbols.table[k], Symbol::State { .. }))
+        .collect();
     let columns_of = |root: usize| columns_of(&tape.symbols(root), &movers, &quaternions);
     let equations = drafts.iter().zip(measures).zip(residuals).map(|((draft, measure), root)| {
         let symbols = tape.symbols(root);
@@ -119,6 +122,7 @@ pub(super) fn formulate(model: &Model, off: f64, writing: Writing) -> Problem {
         gimbals,
         positions,
         time,
+        states,
         parameters,
         defaults,
         driven,

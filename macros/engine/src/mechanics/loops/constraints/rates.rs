@@ -1,6 +1,7 @@
-//! Stage `mechanics`: constraints of velocities, e(q, v, t) = A(q, t) v + b(q, t) = 0.
+//! Stage `mechanics`: constraints of velocities, e(q, v, x, t) = A(q, x, t) v + b(q, x, t) = 0.
 //!
-//! In: an expression that is affine in velocities. Out: the row A on the tree, e itself and its rate. Whether e is the rate of
+//! In: an expression that is affine in velocities; states x of the user's own may stand in it, such as the angle of a wheel that somebody
+//! steers, since their rates are known where accelerations are. Out: the row A on the tree, e itself and its rate. Whether e is the rate of
 //! some function of positions makes no difference here (the report tells, by [`crate::mechanics::analysis`]): such an equation has no
 //! residual of positions, so nothing that moves positions alone looks at it but by A, which says in which directions they may be moved.
 //! Its multiplier does the virtual work -lambda A dq (d'Alembert and Lagrange: the directions are those of A dq = 0, also where b is not
@@ -122,7 +123,9 @@ impl Equations<'_> {
             let residual = self.row(row);
             return self.implicit_rates(residual, &[]);
         };
-        let seeds = self.seeds(2);
+        let mut seeds = self.seeds(2);
+        let read = self.g.read_by(&[rate], &self.scene.symbols.states);
+        seeds.extend(self.seeds_of_states(&read));
         (rate, Differentiator::new(&seeds).scalar(&mut self.g, rate))
     }
 
