@@ -45,16 +45,17 @@ use nalgebra::SVector;
 ///     type Residual = f64;
 ///     fn constraints(&self, _t: f64, q: &Vector2<f64>) -> f64 { 0.5 * (q.norm_squared() - 1.0) }
 ///     fn constraint_rate(&self, _t: f64, state: &State) -> f64 { state.q.dot(&state.v) }
-///     fn correction(&self, _t: f64, q: &Vector2<f64>, residual: &f64, weights: &Vector2<f64>) -> (Vector2<f64>, f64) {
-///         least_norm(&q.transpose(), &Vector1::new(*residual), weights)
+///     fn correction(&self, _t: f64, state: &State, residual: &f64, weights: &Vector2<f64>) -> (Vector2<f64>, f64) {
+///         least_norm(&state.q.transpose(), &Vector1::new(*residual), weights)
 ///     }
 ///     fn velocity_correction(&self, t: f64, state: &State, residual: &f64, weights: &Vector2<f64>) -> (Vector2<f64>, f64) {
-///         self.correction(t, &state.q, residual, weights)
+///         self.correction(t, state, residual, weights)
 ///     }
 ///     fn constraints_along(&self, t: f64, state: &State, d: &Vector2<f64>) -> f64 { self.constraint_rate_along(t, state, d) }
 /// }
 ///
-/// let (d, rank) = Bead.correction(0.0, &Vector2::new(2.0, 0.0), &0.5, &Vector2::new(1.0, 1.0));
+/// let state = State { q: Vector2::new(2.0, 0.0), v: Vector2::zeros() };
+/// let (d, rank) = Bead.correction(0.0, &state, &0.5, &Vector2::new(1.0, 1.0));
 /// assert_eq!((d, rank), (Vector2::new(0.25, 0.0), 1.0));
 /// ```
 #[diagnostic::on_unimplemented(
@@ -89,7 +90,7 @@ pub trait Constrained: System {
     fn correction(
         &self,
         t: Self::Scalar,
-        q: &PositionOf<Self>,
+        state: &Self::State,
         residual: &Self::Residual,
         weights: &DisplacementOf<Self>,
     ) -> (DisplacementOf<Self>, Self::Scalar);
@@ -98,7 +99,7 @@ pub trait Constrained: System {
     /// `d^2 / weight` is least, and the rank of the equations for velocities. A velocity of weight zero is held. All that is
     /// said of [`Constrained::correction`] holds for it.
     ///
-    /// Where velocities are the rates of coordinates it is `self.correction(t, &state.q, residual, weights)`.
+    /// Where velocities are the rates of coordinates it is `self.correction(t, state, residual, weights)`.
     fn velocity_correction(
         &self,
         t: Self::Scalar,
@@ -126,7 +127,7 @@ pub trait Constrained: System {
     fn least_correction(
         &self,
         _t: Self::Scalar,
-        _q: &PositionOf<Self>,
+        _state: &Self::State,
         _residual: &Self::Residual,
     ) -> Option<(DisplacementOf<Self>, Self::Scalar)> {
         None
@@ -162,11 +163,11 @@ impl<S: Constrained + ?Sized> Constrained for &S {
     fn correction(
         &self,
         t: S::Scalar,
-        q: &PositionOf<S>,
+        state: &S::State,
         residual: &S::Residual,
         weights: &DisplacementOf<S>,
     ) -> (DisplacementOf<S>, S::Scalar) {
-        (**self).correction(t, q, residual, weights)
+        (**self).correction(t, state, residual, weights)
     }
     #[inline]
     fn velocity_correction(
@@ -190,10 +191,10 @@ impl<S: Constrained + ?Sized> Constrained for &S {
     fn least_correction(
         &self,
         t: S::Scalar,
-        q: &PositionOf<S>,
+        state: &S::State,
         residual: &S::Residual,
     ) -> Option<(DisplacementOf<S>, S::Scalar)> {
-        (**self).least_correction(t, q, residual)
+        (**self).least_correction(t, state, residual)
     }
     #[inline]
     fn least_velocity_correction(

@@ -32,7 +32,7 @@
 //! # }
 //! # impl Impulsive for Ball {
 //! #     type Rates = ();
-//! #     fn jump(&self, _t: f64, _q: &Vector2<f64>, impulse: &Vector2<f64>, (): &()) -> (Vector2<f64>, f64) {
+//! #     fn jump(&self, _t: f64, _state: &State, impulse: &Vector2<f64>, (): &()) -> (Vector2<f64>, f64) {
 //! #         (impulse / self.mass, 0.0)
 //! #     }
 //! # }
@@ -129,7 +129,7 @@ pub fn impulse<S: Impulsive>(
     impulse: &VelocityOf<S>,
 ) -> Result<Impulse<S::State, S::Scalar>, ImpactError> {
     let (q, v, x) = state.split();
-    let (jump, rank) = system.jump(t, &q, impulse, &S::Rates::zero());
+    let (jump, rank) = system.jump(t, state, impulse, &S::Rates::zero());
     Ok(Impulse { state: finite(state.join(q, v.add(&jump), x))?, rank })
 }
 
@@ -184,7 +184,7 @@ pub fn impact_at_rate<S: Impulsive>(
 ) -> Result<Impact<S::State, S::Scalar>, ImpactError> {
     let (zero, one) = (S::Scalar::lit(0.0), S::Scalar::lit(1.0));
     let (q, v, x) = state.split();
-    let (jump, rank) = system.jump(t, &q, direction, &S::Rates::zero());
+    let (jump, rank) = system.jump(t, state, direction, &S::Rates::zero());
     let answer = dot(direction, &jump);
     let idle = Real::ge(rate, zero) | Real::le(answer, rounding(direction, &jump));
     let impulse = Real::select(idle, zero, -(one + restitution) * rate / Real::select(idle, one, answer));
@@ -219,7 +219,7 @@ pub fn impacts<S: Impulsive, const N: usize>(
     const { assert!(N <= 8, "at most eight directions strike at one time") };
     let (zero, one) = (S::Scalar::lit(0.0), S::Scalar::lit(1.0));
     let (q, v, x) = state.split();
-    let jumps = (*directions).map(|n| system.jump(t, &q, &n, &S::Rates::zero()).0);
+    let jumps = (*directions).map(|n| system.jump(t, state, &n, &S::Rates::zero()).0);
     let before = (*directions).map(|n| dot(&n, &v));
     let answers = (*directions).map(|n| jumps.map(|jump| dot(&n, &jump)));
     let locked: [_; N] = core::array::from_fn(|i| match (directions.get(i), jumps.get(i)) {

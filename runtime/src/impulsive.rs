@@ -33,7 +33,7 @@ pub trait Impulsive: System {
     fn jump(
         &self,
         t: Self::Scalar,
-        q: &PositionOf<Self>,
+        state: &Self::State,
         impulse: &VelocityOf<Self>,
         rates: &Self::Rates,
     ) -> (VelocityOf<Self>, Self::Scalar);
@@ -46,10 +46,10 @@ impl<S: Impulsive + ?Sized> Impulsive for &S {
     fn jump(
         &self,
         t: S::Scalar,
-        q: &PositionOf<S>,
+        state: &S::State,
         impulse: &VelocityOf<S>,
         rates: &S::Rates,
     ) -> (VelocityOf<S>, S::Scalar) {
-        (**self).jump(t, q, impulse, rates)
+        (**self).jump(t, state, impulse, rates)
     }
 }

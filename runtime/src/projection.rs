@@ -33,11 +33,11 @@
 //! #     type Residual = f64;
 //! #     fn constraints(&self, _t: f64, q: &Vector2<f64>) -> f64 { 0.5 * (q.norm_squared() - 1.0) }
 //! #     fn constraint_rate(&self, _t: f64, state: &State) -> f64 { state.q.dot(&state.v) }
-//! #     fn correction(&self, _t: f64, q: &Vector2<f64>, r: &f64, weights: &Vector2<f64>) -> (Vector2<f64>, f64) {
-//! #         least_norm(&q.transpose(), &Vector1::new(*r), weights)
+//! #     fn correction(&self, _t: f64, state: &State, r: &f64, weights: &Vector2<f64>) -> (Vector2<f64>, f64) {
+//! #         least_norm(&state.q.transpose(), &Vector1::new(*r), weights)
 //! #     }
 //! #     fn velocity_correction(&self, t: f64, state: &State, r: &f64, weights: &Vector2<f64>) -> (Vector2<f64>, f64) {
-//! #         self.correction(t, &state.q, r, weights)
+//! #         self.correction(t, state, r, weights)
 //! #     }
 //! #     fn constraints_along(&self, t: f64, state: &State, d: &Vector2<f64>) -> f64 { self.constraint_rate_along(t, state, d) }
 //! # }
@@ -326,7 +326,7 @@ impl Projection {
         }
         let size = greatest(&residual);
         closed = closed | Real::le(size, closeness::<S>(self.tolerance, &q));
-        let unclear = is_unclear(system, t, &q, corrections);
+        let unclear = is_unclear(system, t, &state.join(q, v, x), corrections);
 
         let state = state.join(q, v, x);
         let motion = if self.velocity {

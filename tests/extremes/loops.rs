@@ -414,7 +414,7 @@ fn a_slider_crank_locks_up() {
     let led = sliding::Velocity { slider: 0.0, crank: 1.0, rod: 1.0 };
     let mut line = sliding::State::default();
     (line.q.slider, line.v.slider) = (4.0, 0.5);
-    let (_, left) = model.correction(0.0, &line.q, &SVector::zeros(), &led);
+    let (_, left) = model.correction(0.0, &line, &SVector::zeros(), &led);
     let stuck = Projection::default().project_weighted(&model, 0.0, &line, &led).unwrap_err();
     println!("led to its dead centre: rank {left} of {full}; {stuck}");
     assert!(left == full - 1.0 && matches!(stuck, ProjectionError::NoVelocity { .. }));

@@ -61,7 +61,8 @@ fn jumps_depend_on_time_where_the_mechanism_does() {
         let mass = 1.1 * slope * slope + 2.0 * 0.5 * 0.6 * q.hang.cos() * slope + inertia;
         let jump = model.impulse(t, &q, &impulse);
         assert!((jump.hang - 0.7 / mass).abs() <= 1e-14, "{} instead of {}", jump.hang, 0.7 / mass);
-        assert_eq!(model.jump(t, &q, &impulse, &()).0, jump);
+        let state = turning::State { q, ..Default::default() };
+        assert_eq!(model.jump(t, &state, &impulse, &()).0, jump);
     }
 }
 
@@ -99,7 +100,8 @@ macro_rules! check_constrained {
             let d: SVector<f64, N> = v.into();
             let got: Vec<f64> = d.iter().chain(&multipliers).copied().collect();
             most = worse(most, mixed(&got, want.as_slice()));
-            let (same, rank) = model.jump(t, &q, &p.into(), &r);
+            let state = $model::State { q, ..Default::default() };
+            let (same, rank) = model.jump(t, &state, &p.into(), &r);
             assert_eq!((same, rank), (v, M as f64));
             // It is the residual of the constraints that the rates belong to.
             let _: <$model::Model as Constrained>::Residual = r;
@@ -168,16 +170,16 @@ fn a_stop_with_restitution() {
     assert!(model.constraint_rate(0.0, &state).amax() < 1e-15);
     // One unit on the crank; how much of it turns the crank's velocity round with a restitution of 0.4.
     let unit = stretched::Velocity { crank: 1.0, ..Default::default() };
-    let (answer, _) = model.jump(0.0, &state.q, &unit, &still);
+    let (answer, _) = model.jump(0.0, state, &unit, &still);
     let push = -(1.0 + 0.4) * state.v.crank / answer.crank;
-    let (jump, _) = model.jump(0.0, &state.q, &unit.scale(push), &still);
+    let (jump, _) = model.jump(0.0, state, &unit.scale(push), &still);
     state.v = state.v.add(&jump);
     assert!((state.v.crank + 0.4 * 1.5).abs() < 1e-14);
     assert!(model.constraint_rate(0.0, &state).amax() < 1e-14);
     // Rates take a velocity back to where the equations hold.
     state.v.coupler += 0.1;
     let off = model.constraint_rate(0.0, &state);
-    let (jump, _) = model.jump(0.0, &state.q, &stretched::Velocity::default(), &-off);
+    let (jump, _) = model.jump(0.0, state, &stretched::Velocity::default(), &-off);
     state.v = state.v.add(&jump);
     assert!(off.amax() > 0.05 && model.constraint_rate(0.0, &state).amax() < 1e-14);
 }

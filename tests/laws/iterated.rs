@@ -242,7 +242,8 @@ macro_rules! poses {
                     poses.push(SVector::<f64, N>::from(q).into());
                     break;
                 }
-                let (d, _) = model.correction(0.0, &q, &gap, &SVector::<f64, N>::repeat(1.0).into());
+                let here = $kept::State { q, ..Default::default() };
+                let (d, _) = model.correction(0.0, &here, &gap, &SVector::<f64, N>::repeat(1.0).into());
                 let d: SVector<f64, N> = d.into();
                 q = q.displace(&(-d * f64::min(0.5 / d.amax(), 1.0)).into());
             }

@@ -105,8 +105,9 @@ macro_rules! look {
             $shown.short += 1;
         }
         // Projections: the same with masses of one.
-        let (want, least) = model.correction(0.0, q, &r, &SVector::<f64, N>::repeat(1.0).into());
-        let (d, rank) = model.least_correction(0.0, q, &r).unwrap_or((want, least));
+        let here = $model::State { q: *q, ..Default::default() };
+        let (want, least) = model.correction(0.0, &here, &r, &SVector::<f64, N>::repeat(1.0).into());
+        let (d, rank) = model.least_correction(0.0, &here, &r).unwrap_or((want, least));
         let [d, want]: [SVector<f64, N>; 2] = [d.into(), want.into()];
         let values = singular(&DMatrix::identity(N, N), &jacobian);
         let [certain, possible] =
@@ -142,7 +143,8 @@ macro_rules! closed {
                 found = Some(q);
                 break;
             }
-            let (d, _) = model.correction(0.0, &q, &gap, &weights);
+            let here = $model::State { q, ..Default::default() };
+            let (d, _) = model.correction(0.0, &here, &gap, &weights);
             let d: SVector<f64, N> = d.into();
             let most = d.amax();
             q = q.displace(&(-d * f64::min(0.5 / most, 1.0)).into());

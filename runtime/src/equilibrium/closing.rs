@@ -55,7 +55,7 @@ impl<S: Constrained> Closing<S> for Loops<'_, S> {
     fn correction(&self, t: S::Scalar, state: &S::State, weights: &DisplacementOf<S>) -> DisplacementOf<S> {
         let (q, _, _) = state.split();
         let minus = self.0.constraints(t, &q).scale(S::Scalar::lit(-1.0));
-        self.0.correction(t, &q, &minus, weights).0
+        self.0.correction(t, state, &minus, weights).0
     }
     fn across(
         &self,
@@ -65,7 +65,7 @@ impl<S: Constrained> Closing<S> for Loops<'_, S> {
         weights: &DisplacementOf<S>,
     ) -> DisplacementOf<S> {
         let opened = self.0.constraints_along(t, state, d);
-        self.0.correction(t, &state.split().0, &opened, weights).0
+        self.0.correction(t, state, &opened, weights).0
     }
     fn rates_across(&self, t: S::Scalar, state: &S::State, d: &VelocityOf<S>) -> VelocityOf<S> {
         let opened = self.0.constraint_rate_along(t, state, d);

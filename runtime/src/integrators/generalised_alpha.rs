@@ -147,14 +147,14 @@ pub struct Functional;
 /// How steps keep constraints: [`Reduced`], [`Multipliers`].
 pub trait Closing<S: System>: Copy {
     /// The displacement along `M^-1 G^T` that closes the position at the end of a step.
-    fn position(&self, system: &S, t: S::Scalar, q: &PositionOf<S>) -> VelocityOf<S>;
+    fn position(&self, system: &S, t: S::Scalar, state: &S::State) -> VelocityOf<S>;
     /// The change of the velocity along `M^-1 G^T` that closes its rates.
     fn velocity(&self, system: &S, t: S::Scalar, state: &S::State) -> VelocityOf<S>;
 }
 
 impl<S: System> Closing<S> for Reduced {
     #[inline]
-    fn position(&self, _: &S, _: S::Scalar, _: &PositionOf<S>) -> VelocityOf<S> {
+    fn position(&self, _: &S, _: S::Scalar, _: &S::State) -> VelocityOf<S> {
         Tangent::zero()
     }
     #[inline]
@@ -165,15 +165,15 @@ impl<S: System> Closing<S> for Reduced {
 
 impl<S: Constrained + Impulsive<Rates = <S as Constrained>::Residual>> Closing<S> for Multipliers {
     #[inline]
-    fn position(&self, system: &S, t: S::Scalar, q: &PositionOf<S>) -> VelocityOf<S> {
-        let open = system.constraints(t, q).map(&mut |x| -x);
-        system.jump(t, q, &Tangent::zero(), &open).0
+    fn position(&self, system: &S, t: S::Scalar, state: &S::State) -> VelocityOf<S> {
+        let (q, _, _) = state.split();
+        let open = system.constraints(t, &q).map(&mut |x| -x);
+        system.jump(t, state, &Tangent::zero(), &open).0
     }
     #[inline]
     fn velocity(&self, system: &S, t: S::Scalar, state: &S::State) -> VelocityOf<S> {
-        let (q, _, _) = state.split();
         let open = system.constraint_rate(t, state).map(&mut |x| -x);
-        system.jump(t, &q, &Tangent::zero(), &open).0
+        system.jump(t, state, &Tangent::zero(), &open).0
     }
 }
 
@@ -295,8 +295,7 @@ impl<S: SecondOrder, C: Closing<S>, I: Iterating<S>> Method<S> for GeneralisedAl
         let (mut before, mut converged) = (f64::INFINITY, false);
         for _ in 0..ITERATIONS {
             let state = displaced(step.state, &over(&last, &closing));
-            let (q, _, _) = state.split();
-            closing = closing.add(&self.closing.position(system, step.end, &q));
+            closing = closing.add(&self.closing.position(system, step.end, &state));
             let (accel, own) = problem.derivative(step.end, &state);
             rates = (accel.add(&push), own);
             let left = rates.scale(lit(1.0 - force)).add(&known).add_scaled(lit(mass - 1.0), &last);
@@ -322,8 +321,8 @@ impl<S: SecondOrder, C: Closing<S>, I: Iterating<S>> Method<S> for GeneralisedAl
             before = size;
         }
         // Both once more, since the state has moved with the last change.
-        let (q, _, _) = displaced(step.state, &over(&last, &closing)).split();
-        let closing = closing.add(&self.closing.position(system, step.end, &q));
+        let state = displaced(step.state, &over(&last, &closing));
+        let closing = closing.add(&self.closing.position(system, step.end, &state));
         let state = displaced(step.state, &over(&last, &closing));
         let closed = self.closing.velocity(system, step.end, &state).scale(lit(1.0) / (lit(gamma) * dt));
         rates.0 = rates.0.add_scaled(lit((1.0 - mass) / (1.0 - force)), &closed);

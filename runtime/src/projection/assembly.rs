@@ -150,7 +150,7 @@ impl<'a, S: Constrained> Search<'a, S> {
             return false;
         }
 
-        let (d, rank) = self.system.correction(self.t, &q, &negative(&self.residual), self.free);
+        let (d, rank) = self.system.correction(self.t, &self.state, &negative(&self.residual), self.free);
         let better = Real::lt(size, self.best);
         self.best = Real::select(better, size, self.best);
         self.rank = Real::select(better, rank, self.rank);

@@ -35,16 +35,16 @@ pub fn ambiguity<S: Constrained>(system: &S, t: S::Scalar, state: &S::State) -> 
     if !system.tells_crossings() {
         return zero;
     }
-    let (q, _, _) = state.split();
+    let (q, v, x) = state.split();
     let open = greatest(&system.constraints(t, &q));
     let residual = Real::max(open, S::Scalar::lit(ROUNDING) * closeness::<S>(0.0, &q));
-    let first = probe(system, t, &q, residual);
+    let first = probe(system, t, state, residual);
     let size = greatest(&first);
     let is_near = !Real::le(size, noticed::<S>(&q)); // what isn't a number is no better
     if !any(is_near) {
         return zero;
     }
-    let other = probe(system, t, &q.displace(&first), residual);
+    let other = probe(system, t, &state.join(q.displace(&first), v, x), residual);
     let change = greatest(&other.add_scaled(S::Scalar::lit(-1.0), &first));
     Real::select(is_near, S::Scalar::lit(DOUBT) * change / size, zero)
 }
@@ -53,14 +53,15 @@ pub fn ambiguity<S: Constrained>(system: &S, t: S::Scalar, state: &S::State) -> 
 pub(super) fn is_unclear<S: Constrained>(
     system: &S,
     t: S::Scalar,
-    q: &PositionOf<S>,
+    state: &S::State,
     [first, second]: [S::Scalar; 2],
 ) -> Mask<S> {
-    let doubtful = Real::gt(first, noticed::<S>(q)) & Real::gt(second, S::Scalar::lit(CONTRACTION) * first);
+    let (q, _, _) = state.split();
+    let doubtful = Real::gt(first, noticed::<S>(&q)) & Real::gt(second, S::Scalar::lit(CONTRACTION) * first);
     if !any(doubtful) || !system.tells_crossings() {
         return doubtful & !doubtful;
     }
-    let rounding = greatest(&probe(system, t, q, closeness::<S>(0.0, q)));
+    let rounding = greatest(&probe(system, t, state, closeness::<S>(0.0, &q)));
     doubtful & Real::gt(second, rounding)
 }
 
@@ -71,7 +72,7 @@ pub(super) fn noticed<S: Constrained>(q: &PositionOf<S>) -> S::Scalar {
 }
 
 /// The displacement for a residual of this size, in no direction that a mechanism is likely to be built in.
-fn probe<S: Constrained>(system: &S, t: S::Scalar, q: &PositionOf<S>, size: S::Scalar) -> DisplacementOf<S> {
+fn probe<S: Constrained>(system: &S, t: S::Scalar, state: &S::State, size: S::Scalar) -> DisplacementOf<S> {
     // Steps of the golden section around a circle, between a half and one and of either sign.
     let (half, one) = (S::Scalar::lit(0.5), S::Scalar::lit(1.0));
     let mut turn = S::Scalar::lit(0.3);
@@ -80,5 +81,5 @@ fn probe<S: Constrained>(system: &S, t: S::Scalar, q: &PositionOf<S>, size: S::S
         turn = Real::select(Real::ge(turn, one), turn - one, turn);
         size * Real::select(Real::lt(turn, half), turn + half, -turn)
     });
-    system.correction(t, q, &residual, &ones()).0
+    system.correction(t, state, &residual, &ones()).0
 }

@@ -25,11 +25,11 @@ macro_rules! handed_on {
             fn correction(
                 &self,
                 t: S::Scalar,
-                q: &PositionOf<S>,
+                state: &S::State,
                 residual: &S::Residual,
                 weights: &DisplacementOf<S>,
             ) -> (DisplacementOf<S>, S::Scalar) {
-                self.system.correction(t, q, residual, weights)
+                self.system.correction(t, state, residual, weights)
             }
             #[inline]
             fn velocity_correction(
@@ -53,10 +53,10 @@ macro_rules! handed_on {
             fn least_correction(
                 &self,
                 t: S::Scalar,
-                q: &PositionOf<S>,
+                state: &S::State,
                 residual: &S::Residual,
             ) -> Option<(DisplacementOf<S>, S::Scalar)> {
-                self.system.least_correction(t, q, residual)
+                self.system.least_correction(t, state, residual)
             }
             #[inline]
             fn least_velocity_correction(
@@ -77,11 +77,11 @@ macro_rules! handed_on {
             fn jump(
                 &self,
                 t: S::Scalar,
-                q: &PositionOf<S>,
+                state: &S::State,
                 impulse: &VelocityOf<S>,
                 rates: &S::Rates,
             ) -> (VelocityOf<S>, S::Scalar) {
-                self.system.jump(t, q, impulse, rates)
+                self.system.jump(t, state, impulse, rates)
             }
         }
     };

@@ -63,7 +63,7 @@ impl<S: Constrained> Weighting<S> for Plain {
         residual: &S::Residual,
     ) -> (DisplacementOf<S>, S::Scalar) {
         let fixed = || self.fixed_correction(system, t, state, residual);
-        of_full_rank(system.least_correction(t, &state.split().0, residual), residual, fixed)
+        of_full_rank(system.least_correction(t, state, residual), residual, fixed)
     }
 
     #[inline]
@@ -86,7 +86,7 @@ impl<S: Constrained> Weighting<S> for Plain {
         state: &S::State,
         residual: &S::Residual,
     ) -> (DisplacementOf<S>, S::Scalar) {
-        system.correction(t, &state.split().0, residual, &ones())
+        system.correction(t, state, residual, &ones())
     }
 
     #[inline]
@@ -132,7 +132,7 @@ impl<S: Constrained + SecondOrder> Weighting<S> for Weights<VelocityOf<S>> {
         state: &S::State,
         residual: &S::Residual,
     ) -> (DisplacementOf<S>, S::Scalar) {
-        system.correction(t, &state.split().0, residual, &S::as_displacement(self.0))
+        system.correction(t, state, residual, &S::as_displacement(self.0))
     }
 
     #[inline]
@@ -166,7 +166,7 @@ impl<S: Constrained> Weighting<S> for SeparateWeights<DisplacementOf<S>, Velocit
         state: &S::State,
         residual: &S::Residual,
     ) -> (DisplacementOf<S>, S::Scalar) {
-        system.correction(t, &state.split().0, residual, &self.position)
+        system.correction(t, state, residual, &self.position)
     }
 
     #[inline]
@@ -211,6 +211,6 @@ impl<S: Constrained + Impulsive<Rates = <S as Constrained>::Residual>> Weighting
         state: &S::State,
         residual: &S::Residual,
     ) -> (VelocityOf<S>, S::Scalar) {
-        system.jump(t, &state.split().0, &VelocityOf::<S>::zero(), residual)
+        system.jump(t, state, &VelocityOf::<S>::zero(), residual)
     }
 }

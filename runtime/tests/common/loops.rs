@@ -76,8 +76,8 @@ impl<T: Real> Constrained for Rod<T> {
         let [l, l1, _] = self.length(t);
         dot(&state.q, &state.v) - l * l1
     }
-    fn correction(&self, _t: T, q: &Vector2<T>, residual: &T, weights: &Vector2<T>) -> (Vector2<T>, T) {
-        least_norm(&SMatrix::<T, 1, 2>::from([[q[0]], [q[1]]]), &SVector::from([*residual]), weights)
+    fn correction(&self, _t: T, state: &Self::State, residual: &T, weights: &Vector2<T>) -> (Vector2<T>, T) {
+        least_norm(&SMatrix::<T, 1, 2>::from([[state.q[0]], [state.q[1]]]), &SVector::from([*residual]), weights)
     }
     fn velocity_correction(
         &self,
@@ -86,7 +86,7 @@ impl<T: Real> Constrained for Rod<T> {
         residual: &T,
         weights: &Vector2<T>,
     ) -> (Vector2<T>, T) {
-        self.correction(t, &state.q, residual, weights)
+        self.correction(t, state, residual, weights)
     }
     fn constraints_along(&self, t: T, state: &Coordinates<T, 2>, d: &Vector2<T>) -> T {
         self.constraint_rate_along(t, state, d)
@@ -95,10 +95,10 @@ impl<T: Real> Constrained for Rod<T> {
 
 impl<T: Real> Impulsive for Rod<T> {
     type Rates = T;
-    fn jump(&self, _t: T, q: &Vector2<T>, impulse: &Vector2<T>, rates: &T) -> (Vector2<T>, T) {
-        let square = dot(q, q);
-        let pull = (dot(q, impulse) - *rates) / square;
-        (impulse.add_scaled(-pull, q), T::lit(1.0))
+    fn jump(&self, _t: T, state: &Self::State, impulse: &Vector2<T>, rates: &T) -> (Vector2<T>, T) {
+        let square = dot(&state.q, &state.q);
+        let pull = (dot(&state.q, impulse) - *rates) / square;
+        (impulse.add_scaled(-pull, &state.q), T::lit(1.0))
     }
 }
 
@@ -246,11 +246,11 @@ impl<T: Real, const M: usize> Constrained for FourBar<T, M> {
     fn correction(
         &self,
         _t: T,
-        q: &SVector<T, 9>,
+        state: &Self::State,
         residual: &SVector<T, M>,
         weights: &SVector<T, 9>,
     ) -> (SVector<T, 9>, T) {
-        least_norm(&self.jacobian(q), residual, weights)
+        least_norm(&self.jacobian(&state.q), residual, weights)
     }
     fn velocity_correction(
         &self,
@@ -259,7 +259,7 @@ impl<T: Real, const M: usize> Constrained for FourBar<T, M> {
         residual: &SVector<T, M>,
         weights: &SVector<T, 9>,
     ) -> (SVector<T, 9>, T) {
-        self.correction(t, &state.q, residual, weights)
+        self.correction(t, state, residual, weights)
     }
     fn constraints_along(&self, t: T, state: &Coordinates<T, 9>, d: &SVector<T, 9>) -> SVector<T, M> {
         self.constraint_rate_along(t, state, d)
@@ -268,8 +268,8 @@ impl<T: Real, const M: usize> Constrained for FourBar<T, M> {
 
 impl<T: Real, const M: usize> Impulsive for FourBar<T, M> {
     type Rates = SVector<T, M>;
-    fn jump(&self, _t: T, q: &SVector<T, 9>, impulse: &SVector<T, 9>, rates: &SVector<T, M>) -> (SVector<T, 9>, T) {
-        let (g, masses) = (self.jacobian(q), self.masses());
+    fn jump(&self, _t: T, state: &Self::State, impulse: &SVector<T, 9>, rates: &SVector<T, M>) -> (SVector<T, 9>, T) {
+        let (g, masses) = (self.jacobian(&state.q), self.masses());
         let mut schur = [[T::lit(0.0); M]; M];
         let mut right = [T::lit(0.0); M];
         for m in 0..M {
@@ -321,12 +321,12 @@ impl<S: Constrained> Constrained for Watched<S> {
     fn correction(
         &self,
         t: S::Scalar,
-        q: &PositionOf<S>,
+        state: &S::State,
         residual: &S::Residual,
         weights: &DisplacementOf<S>,
     ) -> (DisplacementOf<S>, S::Scalar) {
         self.corrections.set(self.corrections.get() + 1);
-        self.system.correction(t, q, residual, weights)
+        self.system.correction(t, state, residual, weights)
     }
     fn velocity_correction(
         &self,

@@ -326,8 +326,8 @@ impl Constrained for Bead {
     fn constraint_rate(&self, _t: f64, s: &Plane<f64>) -> f64 {
         s.q.dot(&s.v)
     }
-    fn correction(&self, _t: f64, q: &Vector2<f64>, residual: &f64, weights: &Vector2<f64>) -> (Vector2<f64>, f64) {
-        least_norm(&q.transpose(), &Vector1::new(*residual), weights)
+    fn correction(&self, _t: f64, state: &Self::State, residual: &f64, weights: &Vector2<f64>) -> (Vector2<f64>, f64) {
+        least_norm(&state.q.transpose(), &Vector1::new(*residual), weights)
     }
     fn velocity_correction(
         &self,
@@ -336,7 +336,7 @@ impl Constrained for Bead {
         residual: &f64,
         weights: &Vector2<f64>,
     ) -> (Vector2<f64>, f64) {
-        self.correction(t, &state.q, residual, weights)
+        self.correction(t, state, residual, weights)
     }
     fn constraints_along(&self, t: f64, state: &Plane<f64>, d: &Vector2<f64>) -> f64 {
         self.constraint_rate_along(t, state, d)
@@ -391,8 +391,8 @@ fn closed_loop_without_equilibrium() {
         fn constraint_rate(&self, t: f64, s: &Plane<f64>) -> f64 {
             Bead { stiffness: 0.0 }.constraint_rate(t, s)
         }
-        fn correction(&self, t: f64, q: &Vector2<f64>, r: &f64, weights: &Vector2<f64>) -> (Vector2<f64>, f64) {
-            Bead { stiffness: 0.0 }.correction(t, q, r, weights)
+        fn correction(&self, t: f64, state: &Self::State, r: &f64, weights: &Vector2<f64>) -> (Vector2<f64>, f64) {
+            Bead { stiffness: 0.0 }.correction(t, state, r, weights)
         }
         fn velocity_correction(
             &self,
@@ -401,7 +401,7 @@ fn closed_loop_without_equilibrium() {
             residual: &f64,
             weights: &Vector2<f64>,
         ) -> (Vector2<f64>, f64) {
-            self.correction(t, &state.q, residual, weights)
+            self.correction(t, state, residual, weights)
         }
         fn constraints_along(&self, t: f64, state: &Plane<f64>, d: &Vector2<f64>) -> f64 {
             self.constraint_rate_along(t, state, d)

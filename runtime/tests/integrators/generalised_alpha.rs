@@ -259,7 +259,7 @@ impl System for Tied {
     type Input = ();
     fn derivative(&self, t: f64, x: &Coordinates<f64, 4>, (): &()) -> (SVector<f64, 4>, ()) {
         let bias = -(x.v[0] * x.v[0] + x.v[1] * x.v[1]);
-        (self.jump(t, &x.q, &self.forces(&x.q), &bias).0, ())
+        (self.jump(t, x, &self.forces(&x.q), &bias).0, ())
     }
     fn position_rates(&self, _t: f64, x: &Coordinates<f64, 4>) -> SVector<f64, 4> {
         x.v
@@ -274,8 +274,8 @@ impl Constrained for Tied {
     fn constraint_rate(&self, _t: f64, x: &Coordinates<f64, 4>) -> f64 {
         (Self::row(&x.q) * x.v)[0]
     }
-    fn correction(&self, _t: f64, q: &SVector<f64, 4>, r: &f64, w: &SVector<f64, 4>) -> (SVector<f64, 4>, f64) {
-        least_norm(&Self::row(q), &SVector::from([*r]), w)
+    fn correction(&self, _t: f64, state: &Self::State, r: &f64, w: &SVector<f64, 4>) -> (SVector<f64, 4>, f64) {
+        least_norm(&Self::row(&state.q), &SVector::from([*r]), w)
     }
     fn velocity_correction(
         &self,
@@ -284,7 +284,7 @@ impl Constrained for Tied {
         residual: &f64,
         weights: &SVector<f64, 4>,
     ) -> (SVector<f64, 4>, f64) {
-        self.correction(t, &state.q, residual, weights)
+        self.correction(t, state, residual, weights)
     }
     fn constraints_along(&self, t: f64, state: &Coordinates<f64, 4>, d: &SVector<f64, 4>) -> f64 {
         self.constraint_rate_along(t, state, d)
@@ -293,8 +293,8 @@ impl Constrained for Tied {
 
 impl Impulsive for Tied {
     type Rates = f64;
-    fn jump(&self, _t: f64, q: &SVector<f64, 4>, impulse: &SVector<f64, 4>, rates: &f64) -> (SVector<f64, 4>, f64) {
-        let g = Self::row(q);
+    fn jump(&self, _t: f64, state: &Self::State, impulse: &SVector<f64, 4>, rates: &f64) -> (SVector<f64, 4>, f64) {
+        let g = Self::row(&state.q);
         let pull = ((g * impulse)[0] - rates) / (g * g.transpose())[0];
         (impulse - g.transpose() * pull, 1.0)
     }

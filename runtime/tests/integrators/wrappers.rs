@@ -79,7 +79,7 @@ impl Constrained for Bead {
     fn constraint_rate(&self, _t: f64, state: &State) -> f64 {
         state.v.y
     }
-    fn correction(&self, _t: f64, _q: &Vector2<f64>, residual: &f64, weights: &Vector2<f64>) -> (Vector2<f64>, f64) {
+    fn correction(&self, _t: f64, _state: &Self::State, residual: &f64, weights: &Vector2<f64>) -> (Vector2<f64>, f64) {
         least_norm(&Vector2::new(0.0, 1.0).transpose(), &Vector1::new(*residual), weights)
     }
     fn velocity_correction(
@@ -89,7 +89,7 @@ impl Constrained for Bead {
         residual: &f64,
         weights: &Vector2<f64>,
     ) -> (Vector2<f64>, f64) {
-        self.correction(t, &state.q, residual, weights)
+        self.correction(t, state, residual, weights)
     }
     fn constraints_along(&self, t: f64, state: &State, d: &Vector2<f64>) -> f64 {
         self.constraint_rate_along(t, state, d)

@@ -263,14 +263,14 @@ impl Constrained for Plate {
         let (l, a) = (state.v.linear, state.v.angular);
         Self::jacobian(&state.q) * SVector::from([l.x, l.y, l.z, a.x, a.y, a.z])
     }
-    fn correction(&self, _t: f64, q: &Pose, residual: &SVector<f64, 6>, weights: &Twist) -> (Twist, f64) {
+    fn correction(&self, _t: f64, state: &Self::State, residual: &SVector<f64, 6>, weights: &Twist) -> (Twist, f64) {
         let (l, a) = (weights.linear, weights.angular);
         let weights = SVector::from([l.x, l.y, l.z, a.x, a.y, a.z]);
-        let (d, rank) = least_norm(&Self::jacobian(q), residual, &weights);
+        let (d, rank) = least_norm(&Self::jacobian(&state.q), residual, &weights);
         (Twist { linear: Vector3::new(d[0], d[1], d[2]), angular: Vector3::new(d[3], d[4], d[5]) }, rank)
     }
     fn velocity_correction(&self, t: f64, state: &Flight, residual: &SVector<f64, 6>, weights: &Twist) -> (Twist, f64) {
-        self.correction(t, &state.q, residual, weights)
+        self.correction(t, state, residual, weights)
     }
     fn constraints_along(&self, t: f64, state: &Flight, d: &Twist) -> SVector<f64, 6> {
         self.constraint_rate_along(t, state, d)

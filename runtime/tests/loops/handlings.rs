@@ -185,11 +185,11 @@ impl Constrained for Handled {
     fn correction(
         &self,
         t: f64,
-        q: &kept::Position,
+        state: &Self::State,
         residual: &Self::Residual,
         weights: &kept::Velocity,
     ) -> (kept::Velocity, f64) {
-        self.model.correction(t, q, residual, weights)
+        self.model.correction(t, state, residual, weights)
     }
     fn velocity_correction(
         &self,
@@ -198,7 +198,7 @@ impl Constrained for Handled {
         residual: &Self::Residual,
         weights: &kept::Velocity,
     ) -> (kept::Velocity, f64) {
-        self.correction(t, &state.q, residual, weights)
+        self.correction(t, state, residual, weights)
     }
     fn constraints_along(&self, t: f64, state: &kept::State, d: &kept::Velocity) -> Self::Residual {
         self.constraint_rate_along(t, state, d)
@@ -207,8 +207,14 @@ impl Constrained for Handled {
 
 impl Impulsive for Handled {
     type Rates = <kept::Model as Impulsive>::Rates;
-    fn jump(&self, t: f64, q: &kept::Position, impulse: &kept::Velocity, rates: &Self::Rates) -> (kept::Velocity, f64) {
-        Impulsive::jump(&self.model, t, q, impulse, rates)
+    fn jump(
+        &self,
+        t: f64,
+        state: &Self::State,
+        impulse: &kept::Velocity,
+        rates: &Self::Rates,
+    ) -> (kept::Velocity, f64) {
+        Impulsive::jump(&self.model, t, &state.q, impulse, rates)
     }
 }
 

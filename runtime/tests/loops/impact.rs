@@ -26,7 +26,7 @@ impl<T: Real, const N: usize> System for Masses<T, N> {
 
 impl<T: Real, const N: usize> Impulsive for Masses<T, N> {
     type Rates = ();
-    fn jump(&self, _t: T, _q: &SVector<T, N>, impulse: &SVector<T, N>, (): &()) -> (SVector<T, N>, T) {
+    fn jump(&self, _t: T, _state: &Self::State, impulse: &SVector<T, N>, (): &()) -> (SVector<T, N>, T) {
         (impulse.zip(&SVector::from(self.0), &mut |p, m| p / m), T::lit(0.0))
     }
 }
@@ -94,8 +94,8 @@ impl System for Rods {
 
 impl Impulsive for Rods {
     type Rates = ();
-    fn jump(&self, _t: f64, q: &Vector2<f64>, impulse: &Vector2<f64>, (): &()) -> (Vector2<f64>, f64) {
-        (Self::mass(q).try_inverse().unwrap() * impulse, 0.0)
+    fn jump(&self, _t: f64, state: &Self::State, impulse: &Vector2<f64>, (): &()) -> (Vector2<f64>, f64) {
+        (Self::mass(&state.q).try_inverse().unwrap() * impulse, 0.0)
     }
 }
 

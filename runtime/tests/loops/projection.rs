@@ -251,12 +251,12 @@ impl Constrained for Fold {
     fn constraint_rate(&self, _t: f64, state: &Scalar<f64>) -> f64 {
         state.q * state.v - 1.0
     }
-    fn correction(&self, _t: f64, q: &f64, residual: &f64, weight: &f64) -> (f64, f64) {
-        let (d, rank) = multibody::linear::least_norm(&[[*q]].into(), &[*residual].into(), &[*weight].into());
+    fn correction(&self, _t: f64, state: &Self::State, residual: &f64, weight: &f64) -> (f64, f64) {
+        let (d, rank) = multibody::linear::least_norm(&[[state.q]].into(), &[*residual].into(), &[*weight].into());
         (d[0], rank)
     }
     fn velocity_correction(&self, t: f64, state: &Scalar<f64>, residual: &f64, weights: &f64) -> (f64, f64) {
-        self.correction(t, &state.q, residual, weights)
+        self.correction(t, state, residual, weights)
     }
     fn constraints_along(&self, t: f64, state: &Scalar<f64>, d: &f64) -> f64 {
         self.constraint_rate_along(t, state, d)
@@ -345,11 +345,11 @@ impl Constrained for Lever {
     fn constraint_rate(&self, _t: f64, state: &Scalar<f64>) -> f64 {
         1e7 * state.q.cos() * state.v
     }
-    fn correction(&self, _t: f64, q: &f64, residual: &f64, weight: &f64) -> (f64, f64) {
-        (if *weight > 0.0 { residual / (1e7 * q.cos()) } else { 0.0 }, 1.0)
+    fn correction(&self, _t: f64, state: &Self::State, residual: &f64, weight: &f64) -> (f64, f64) {
+        (if *weight > 0.0 { residual / (1e7 * state.q.cos()) } else { 0.0 }, 1.0)
     }
     fn velocity_correction(&self, t: f64, state: &Scalar<f64>, residual: &f64, weights: &f64) -> (f64, f64) {
-        self.correction(t, &state.q, residual, weights)
+        self.correction(t, state, residual, weights)
     }
     fn constraints_along(&self, t: f64, state: &Scalar<f64>, d: &f64) -> f64 {
         self.constraint_rate_along(t, state, d)

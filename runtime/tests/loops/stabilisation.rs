@@ -261,11 +261,11 @@ impl Constrained for Limited {
     fn constraint_rate(&self, _t: f64, _state: &Scalar<f64>) -> f64 {
         0.0
     }
-    fn correction(&self, _t: f64, q: &f64, _residual: &f64, _weights: &f64) -> (f64, f64) {
-        (0.0, if *q > self.limit { 0.0 } else { 1.0 })
+    fn correction(&self, _t: f64, state: &Self::State, _residual: &f64, _weights: &f64) -> (f64, f64) {
+        (0.0, if state.q > self.limit { 0.0 } else { 1.0 })
     }
     fn velocity_correction(&self, t: f64, state: &Scalar<f64>, residual: &f64, weights: &f64) -> (f64, f64) {
-        self.correction(t, &state.q, residual, weights)
+        self.correction(t, state, residual, weights)
     }
     fn constraints_along(&self, t: f64, state: &Scalar<f64>, d: &f64) -> f64 {
         self.constraint_rate_along(t, state, d)

@@ -85,12 +85,12 @@ impl<S: Constrained> Constrained for Bounded<'_, S> {
     fn correction(
         &self,
         t: S::Scalar,
-        q: &PositionOf<S>,
+        state: &S::State,
         residual: &S::Residual,
         weights: &DisplacementOf<S>,
     ) -> (DisplacementOf<S>, S::Scalar) {
         self.count();
-        self.system.correction(t, q, residual, weights)
+        self.system.correction(t, state, residual, weights)
     }
     fn velocity_correction(
         &self,
@@ -109,11 +109,11 @@ impl<S: Constrained> Constrained for Bounded<'_, S> {
     fn least_correction(
         &self,
         t: S::Scalar,
-        q: &PositionOf<S>,
+        state: &S::State,
         residual: &S::Residual,
     ) -> Option<(DisplacementOf<S>, S::Scalar)> {
         self.count();
-        self.system.least_correction(t, q, residual)
+        self.system.least_correction(t, state, residual)
     }
     fn least_velocity_correction(
         &self,
@@ -164,12 +164,12 @@ impl<S: Impulsive> Impulsive for Bounded<'_, S> {
     fn jump(
         &self,
         t: S::Scalar,
-        q: &PositionOf<S>,
+        state: &S::State,
         impulse: &VelocityOf<S>,
         rates: &S::Rates,
     ) -> (VelocityOf<S>, S::Scalar) {
         self.count();
-        self.system.jump(t, q, impulse, rates)
+        self.system.jump(t, state, impulse, rates)
     }
 }
 

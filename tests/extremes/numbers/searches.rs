@@ -70,8 +70,8 @@ pub(super) fn closed<S: Constrained<Scalar: Drawn> + SecondOrder>(
     system.reset();
     black_box(system.constraints(n.scalar(), &q).len());
     black_box(system.constraint_rate(n.scalar(), state).len());
-    black_box(system.correction(n.scalar(), &q, &n.vector(), &n.vector()).1);
-    black_box(system.least_correction(n.scalar(), &q, &n.vector()).is_some());
+    black_box(system.correction(n.scalar(), state, &n.vector(), &n.vector()).1);
+    black_box(system.least_correction(n.scalar(), state, &n.vector()).is_some());
     black_box(Plain.fixed_correction(system, n.scalar(), state, &n.vector()).1);
     black_box(rank(system, n.scalar(), state));
     let halves = [(true, false), (false, true), (true, true)];

@@ -393,8 +393,8 @@ impl Constrained for Skate {
         let rates = self.position_rates(t, x);
         Vector2::new(x.q.z * rates.z + x.q.w * rates.w, x.u.y)
     }
-    fn correction(&self, _t: f64, q: &Vector4<f64>, r: &Vector2<f64>, w: &Vector4<f64>) -> (Vector4<f64>, f64) {
-        let row = Vector4::new(0.0, 0.0, q.z, q.w).transpose();
+    fn correction(&self, _t: f64, state: &Self::State, r: &Vector2<f64>, w: &Vector4<f64>) -> (Vector4<f64>, f64) {
+        let row = Vector4::new(0.0, 0.0, state.q.z, state.q.w).transpose();
         least_norm(&row, &Vector1::new(r.x), w)
     }
     fn velocity_correction(
@@ -477,8 +477,8 @@ impl Constrained for Tilted {
     fn constraint_rate(&self, t: f64, x: &Self::State) -> f64 {
         self.rod.constraint_rate(t, &self.plain(t, x))
     }
-    fn correction(&self, t: f64, q: &Vector2<f64>, residual: &f64, weights: &Vector2<f64>) -> (Vector2<f64>, f64) {
-        self.rod.correction(t, q, residual, weights)
+    fn correction(&self, t: f64, state: &Self::State, residual: &f64, weights: &Vector2<f64>) -> (Vector2<f64>, f64) {
+        self.rod.correction(t, &self.plain(t, state), residual, weights)
     }
     fn velocity_correction(&self, _t: f64, x: &Self::State, r: &f64, weights: &Vector2<f64>) -> (Vector2<f64>, f64) {
         least_norm(&x.q.component_div(&Self::ratios(&x.q)).transpose(), &Vector1::new(*r), weights)
@@ -490,9 +490,9 @@ impl Constrained for Tilted {
 
 impl Impulsive for Tilted {
     type Rates = f64;
-    fn jump(&self, t: f64, q: &Vector2<f64>, impulse: &Vector2<f64>, rates: &f64) -> (Vector2<f64>, f64) {
-        let ratios = Self::ratios(q);
-        let (jump, rank) = self.rod.jump(t, q, &ratios.component_mul(impulse), rates);
+    fn jump(&self, t: f64, state: &Self::State, impulse: &Vector2<f64>, rates: &f64) -> (Vector2<f64>, f64) {
+        let ratios = Self::ratios(&state.q);
+        let (jump, rank) = self.rod.jump(t, &self.plain(t, state), &ratios.component_mul(impulse), rates);
         (ratios.component_mul(&jump), rank)
     }
 }

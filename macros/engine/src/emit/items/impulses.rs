@@ -24,21 +24,22 @@ fn impulsive(context: &Context<'_>) -> Option<TokenStream> {
     context.function(FunctionKind::ForwardDynamics)?;
     let with_time = functions::arguments(impulse).has_time();
     let [t, unread] = ["t", "_t"].map(names::ident);
-    let (time, passed) = if with_time { (&t, Some(quote!(#t,))) } else { (&unread, None) };
+    let time = if with_time { &t } else { &unread };
+    let passed = functions::arguments(impulse).pass_state();
     let (ty, rates, value) = if layout.rows() > 0 {
         let value = quote! {
-            let jump = self.impulse(#passed q, impulse, rates);
+            let jump = self.impulse(#passed, impulse, rates);
             (jump.v, jump.rank)
         };
         (results::vector_type(layout, layout.rows()), quote!(rates), value)
     } else {
-        (quote!(()), quote!(_rates), quote!((self.impulse(#passed q, impulse), T::lit(0.0))))
+        (quote!(()), quote!(_rates), quote!((self.impulse(#passed, impulse), T::lit(0.0))))
     };
     Some(quote! {
         impl<T: Real> #krate::Impulsive for Model<T> {
             type Rates = #ty;
 
-            fn jump(&self, #time: T, q: &Position<T>, impulse: &Velocity<T>, #rates: &#ty) -> (Velocity<T>, T) {
+            fn jump(&self, #time: T, state: &State<T>, impulse: &Velocity<T>, #rates: &#ty) -> (Velocity<T>, T) {
                 #value
             }
         }

@@ -206,19 +206,28 @@ fn scales(layout: &Layout<'_>) -> [f64; 2] {
     [scales.iter().fold(f64::MAX, |a, &b| a.min(b)), scales.iter().fold(0.0, |a, &b| b.max(a))]
 }
 
-/// Whether constraint equations depend on nothing but time, positions and velocities; nothing where they were not derived.
+/// Whether what is left of constraint equations depends on nothing but time and positions, and their slopes and rates on nothing but
+/// time and the state; nothing where they were not derived.
 fn takes_what_is_known(context: &Context<'_>) -> Option<bool> {
-    let takes =
-        |kind: FunctionKind| context.function(kind).map(|function| functions::arguments(function) == kind.row().takes);
-    let own = [FunctionKind::Constraints, FunctionKind::ConstraintJacobian, FunctionKind::ConstraintRate].map(takes);
-    let all: Option<Vec<bool>> = own.into_iter().collect();
-    Some(all?.into_iter().chain(takes(FunctionKind::PositionJacobian)).all(|known| known))
+    let [open, jacobian, rate] =
+        [FunctionKind::Constraints, FunctionKind::ConstraintJacobian, FunctionKind::ConstraintRate]
+            .map(|kind| context.function(kind).map(functions::arguments));
+    let moved = context.function(FunctionKind::PositionJacobian).map(functions::arguments);
+    let of_position = open? == FunctionKind::Constraints.row().takes;
+    Some(of_position && [jacobian?, rate?].into_iter().chain(moved).all(|arguments| !arguments.has_input()))
 }
 
-/// The method that has the constraint equations' derivatives by displacements of the position.
-fn of_displacements(context: &Context<'_>) -> Ident {
-    let moved = context.function(FunctionKind::PositionJacobian).is_some();
-    names::ident(if moved { "position_jacobian" } else { "constraint_jacobian" })
+/// The call of the method that has the constraint equations' derivatives by displacements of the position, from where `t` and `state`
+/// are known.
+fn of_displacements(context: &Context<'_>) -> Option<TokenStream> {
+    jacobian_of(context, FunctionKind::PositionJacobian)
+        .or_else(|| jacobian_of(context, FunctionKind::ConstraintJacobian))
+}
+
+fn jacobian_of(context: &Context<'_>, kind: FunctionKind) -> Option<TokenStream> {
+    let passed = functions::arguments(context.function(kind)?).pass_state();
+    let method = names::ident(&functions::name(context.layout.model, kind));
+    Some(quote!(self.#method(#passed)))
 }
 
 /// Expands to `let opening = ..;` of equations with multipliers.
@@ -250,14 +259,14 @@ fn constrained_start(context: &Context<'_>, reads: &mut [bool; 2]) -> Option<Tok
     }
     let units = numbers(structure.units.clone());
     let sized = results::vector_type(layout, structure.state.len());
-    let jacobian = of_displacements(context);
+    let jacobian = of_displacements(context)?;
     // Velocities count as what they move.
     let rates = match context.function(FunctionKind::PositionRates) {
         Some(_) => quote!(#krate::System::position_rates(self, #t, #state)),
         None => quote!(#state.v),
     };
     Some(quote! {
-        let jacobian = self.#jacobian(#t, &#state.q);
+        let jacobian = #jacobian;
         let gauge =
             #krate::Gauge { jacobian: jacobian.as_slice(), scales: &#scales, kinds: &#kinds, units: &#units };
         let sizes: #sized = #krate::Configuration::magnitude(&#state.q).into();
@@ -327,7 +336,8 @@ fn constrained(context: &Context<'_>) -> Option<TokenStream> {
     });
     let least = least(context, &residual);
     let moved = context.function(FunctionKind::PositionJacobian).is_some();
-    let jacobian = of_displacements(context);
+    let jacobian = of_displacements(context)?;
+    let of_rates = jacobian_of(context, FunctionKind::ConstraintJacobian);
     let (displacement, sized) = match moved {
         true => (names::ident("Rates"), results::vector_type(layout, layout.structure.state.len())),
         false => (names::ident("Velocity"), of_velocities.clone()),
@@ -335,16 +345,16 @@ fn constrained(context: &Context<'_>) -> Option<TokenStream> {
     let of_velocities = match moved {
         true => quote! {
             let weights: #of_velocities = (*weights).into();
-            let jacobian = self.constraint_jacobian(t, &state.q);
+            let jacobian = #of_rates;
             let (change, rank) = #krate::linear::#least_norm(&jacobian, residual, &weights #groups);
             (change.into(), rank)
         },
-        false => quote!(#krate::Constrained::correction(self, t, &state.q, residual, weights)),
+        false => quote!(#krate::Constrained::correction(self, t, state, residual, weights)),
     };
     let along = match moved {
         true => quote! {
             let d: #sized = (*d).into();
-            self.position_jacobian(t, &state.q) * d
+            #jacobian * d
         },
         false => quote!(#krate::Constrained::constraint_rate_along(self, t, state, d)),
     };
@@ -365,12 +375,12 @@ fn constrained(context: &Context<'_>) -> Option<TokenStream> {
             fn correction(
                 &self,
                 t: T,
-                q: &Position<T>,
+                state: &State<T>,
                 residual: &#residual,
                 weights: &#displacement<T>,
             ) -> (#displacement<T>, T) {
                 let weights: #sized = (*weights).into();
-                let jacobian = self.#jacobian(t, q);
+                let jacobian = #jacobian;
                 let (change, rank) = #krate::linear::#least_norm(&jacobian, residual, &weights #groups);
                 (change.into(), rank)
             }
@@ -401,30 +411,27 @@ fn least(context: &Context<'_>, residual: &TokenStream) -> Option<TokenStream> {
     let function = context.function(FunctionKind::Displacement)?;
     let timed = functions::arguments(function).has_time();
     let [t, unread] = ["t", "_t"].map(names::ident);
-    let (time, passed) = if timed { (&t, Some(quote!(#t,))) } else { (&unread, None) };
+    let time = if timed { &t } else { &unread };
+    let passed = functions::arguments(function).pass_state();
     let [columns, rank] = [layout.dof(); 2].map(Literal::usize_unsuffixed);
-    let found = |q: TokenStream| {
-        quote! {
-            let found = self.least_displacement(#passed #q, residual);
-            ::core::option::Option::Some((found.fixed_rows::<#columns>(0).into_owned().into(), found[#rank]))
-        }
+    let found = quote! {
+        let found = self.least_displacement(#passed, residual);
+        ::core::option::Option::Some((found.fixed_rows::<#columns>(0).into_owned().into(), found[#rank]))
     };
     if layout.structure.has_speeds() {
-        let found = found(quote!(&state.q));
         return Some(quote! {
             fn least_velocity_correction(&self, #time: T, state: &State<T>, residual: &#residual) -> ::core::option::Option<(Velocity<T>, T)> {
                 #found
             }
         });
     }
-    let found = found(quote!(q));
     Some(quote! {
-        fn least_correction(&self, #time: T, q: &Position<T>, residual: &#residual) -> ::core::option::Option<(Velocity<T>, T)> {
+        fn least_correction(&self, #time: T, state: &State<T>, residual: &#residual) -> ::core::option::Option<(Velocity<T>, T)> {
             #found
         }
 
         fn least_velocity_correction(&self, t: T, state: &State<T>, residual: &#residual) -> ::core::option::Option<(Velocity<T>, T)> {
-            #krate::Constrained::least_correction(self, t, &state.q, residual)
+            #krate::Constrained::least_correction(self, t, state, residual)
         }
     })
 }

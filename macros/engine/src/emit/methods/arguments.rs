@@ -163,6 +163,13 @@ impl Arguments {
         quote!(#t #state #input)
     }
 
+    /// The same where the function may take the position alone: from where `t` and `state` are known.
+    pub(in crate::emit) fn pass_state(self) -> TokenStream {
+        let [t, state] = ["t", "state"].map(names::ident);
+        let t = self.time.then(|| quote!(#t,));
+        if self.state { quote!(#t #state) } else { quote!(#t &#state.q) }
+    }
+
     pub(in crate::emit) fn has_time(self) -> bool {
         self.time
     }

@@ -40,14 +40,6 @@ impl Deriving<'_> {
             let help = "write a `solve` for the loop, or `constraints: Multipliers`";
             complaints.push(self.complaint(Request::Impulse, message, help));
         }
-        if self.model.asked_at(Request::Impulse).is_some()
-            && let Some(body) = model.bodies.iter().find(|body| !body.states().is_empty())
-        {
-            let message =
-                format!("`impulse` knows no states, and the inertia of `{}` follows one", path(model, &body.place));
-            let help = "`mass_matrix` and `forward_dynamics` take the state: at rest, without forces, accelerations are the jump";
-            complaints.push(self.complaint(Request::Impulse, &message, help));
-        }
         if self.model.asked_at(Request::Momentum).is_some() {
             let mut refuse = |message: &str, help: &str| {
                 complaints.push(self.complaint(Request::Momentum, message, help));
