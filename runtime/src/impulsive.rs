@@ -1,6 +1,6 @@
 //! How velocities answer to impulses: [`Impulsive`].
 
-use crate::{PositionOf, System, Tangent, VelocityOf};
+use crate::{System, Tangent, VelocityOf};
 
 /// A system that tells the jump of its velocities under an impulse, consistent with its constraints.
 ///

@@ -412,6 +412,19 @@ impl<S: System> Motion<S> {
     }
 }
 
+impl<S: Constrained> Motion<S> {
+    /// The place of the equation with the greatest rate in lanes that found no velocities, and that rate.
+    fn worst_equation(&self, rates: &S::Residual) -> (usize, f64) {
+        let zero = S::Scalar::lit(0.0);
+        let size = |rate| Real::select(self.consistent, zero, Real::abs(rate)).greatest();
+        let worse = |(place, worst): (usize, (usize, f64)), rate| {
+            let size = size(rate);
+            (place + 1, if size > worst.1 { (place, size) } else { worst })
+        };
+        rates.fold((0, (0, 0.0)), &mut |worst, rate| worse(worst, rate)).1
+    }
+}
+
 /// The mask of a system's scalar.
 type Mask<S> = <<S as System>::Scalar as Real>::Mask;
 

@@ -3,7 +3,7 @@
 
 use multibody::nalgebra::SVector;
 use multibody::simba::simd::{SimdValue, WideF64x4};
-use multibody::{DormandPrince, Integrator, Radau, Real, verify_at};
+use multibody::{DormandPrince, Integrator, Radau, Real, impulse, verify_at};
 use multibody_tests::models::tanks::*;
 use multibody_tests::support::compare::{mixed, worse};
 use multibody_tests::support::random::Random;
@@ -131,6 +131,24 @@ fn derivatives_by_the_state() {
     }
     println!("{most:e}");
     assert!(most <= 1e-11, "{most:e}");
+}
+
+/// A blow at the moment: M d = impulse with the masses that are there.
+#[test]
+fn a_blow_finds_what_is_left() {
+    let (mut random, mut most) = (Random::new(19), 0.0);
+    let model = tank::Model::<f64>::default();
+    for _ in 0..20 {
+        let point = Point::new(&mut random);
+        let state = point.state::<f64>();
+        let blow = SVector::<f64, 3>::from(point.a);
+        let after = impulse(&model, 0.0, &state, &blow.into()).unwrap().state;
+        let jump = SVector::<f64, 3>::from(after.v) - SVector::<f64, 3>::from(state.v);
+        let found = model.mass_matrix(&state) * jump;
+        most = worse(most, mixed(found.as_slice(), blow.as_slice()));
+        assert_eq!(after.x.fuel, state.x.fuel);
+    }
+    assert!(most <= 1e-12, "{most:e}");
 }
 
 #[test]

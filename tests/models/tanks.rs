@@ -29,7 +29,7 @@ macro_rules! arm {
                 output centre = centre_of_mass();
                 output momentum = linear_momentum();
                 emit forward_dynamics, inverse_dynamics, mass_matrix, mass_matrix_lower, bias, energy, derivatives, linearize,
-                    centroidal_momentum_matrix;
+                    impulse, centroidal_momentum_matrix;
                 emit at { functions: [forward_dynamics, inverse_dynamics, mass_matrix, bias, kinetic_energy] };
             }
         }

@@ -24,8 +24,8 @@ use super::slope::{SlopeOf, displaced};
 use crate::linear::Square;
 use crate::tangent::{greatest, unpack};
 use crate::{
-    Constrained, Differentiable, ExtraOf, Impulsive, JacobianMatrix, PositionOf, Real, SecondOrder, StateSpace, System,
-    Tangent, VelocityOf,
+    Constrained, Differentiable, ExtraOf, Impulsive, JacobianMatrix, Real, SecondOrder, StateSpace, System, Tangent,
+    VelocityOf,
 };
 
 /// Derivatives are renewed where a change is more than this share of the one before.

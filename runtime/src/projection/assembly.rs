@@ -85,7 +85,8 @@ pub fn assemble_by<S: Constrained>(
     if !all(motion.consistent) {
         let equations = search.residual.len();
         let rank = least::<S>(motion.consistent, motion.rank, equations);
-        return Err(AssemblyError::CannotMove { rate: motion.worst_rate(), rank, equations });
+        let (equation, rate) = motion.worst_equation(&system.constraint_rate(t, &motion.state));
+        return Err(AssemblyError::CannotMove { rate, equation, rank, equations });
     }
     let residual = greatest(&search.residual);
     Ok(Assembled { state: motion.state, rank: motion.rank, residual, iterations: search.iterations })

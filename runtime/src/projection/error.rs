@@ -66,6 +66,8 @@ pub enum AssemblyError {
     CannotMove {
         /// `[m/s]` or `[rad/s]` greatest component of the rate that is left.
         rate: f64,
+        /// The equation whose rate that is, by its place among them.
+        equation: usize,
         /// How many equations are independent there.
         rank: usize,
         /// How many there are.
@@ -85,10 +87,10 @@ impl fmt::Display for AssemblyError {
             Self::NoConvergence { residual, iterations } => {
                 write!(f, "the loops are still open by {residual:e} after {iterations} iterations")
             }
-            Self::CannotMove { rate, rank, equations } => write!(
+            Self::CannotMove { rate, equation, rank, equations } => write!(
                 f,
-                "no velocities keep the loops closed: a rate of {rate:e} per second remains, and {rank} of \
-                 {equations} equations are independent"
+                "no velocities keep the loops closed: a rate of {rate:e} per second remains in the equation at place {equation}, and \
+                 {rank} of {equations} equations are independent"
             ),
         }
     }

@@ -3,7 +3,7 @@
 
 use super::{all, ones};
 use crate::system::displacement_by;
-use crate::{Constrained, DisplacementOf, Impulsive, Real, SecondOrder, StateSpace, Tangent, VelocityOf};
+use crate::{Constrained, DisplacementOf, Impulsive, Real, SecondOrder, Tangent, VelocityOf};
 
 /// Which of all displacements that satisfy the constraints, and which of all changes of velocities, counts as the least.
 pub trait Weighting<S: Constrained>: Copy {

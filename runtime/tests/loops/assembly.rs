@@ -64,7 +64,7 @@ fn velocities_follow() {
     // Across it is held, and there is nothing else to give way.
     let guess = Coordinates { q: Vector2::new(0.0, 1.0), v: Vector2::new(3.0, 7.0) };
     let error = assemble(&rod, 0.0, &guess, &Vector2::new(1.0, 0.0)).unwrap_err();
-    assert_eq!(error, AssemblyError::CannotMove { rate: 6.5, rank: 0, equations: 1 });
+    assert_eq!(error, AssemblyError::CannotMove { rate: 6.5, equation: 0, rank: 0, equations: 1 });
 }
 
 #[test]

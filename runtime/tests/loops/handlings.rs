@@ -214,7 +214,7 @@ impl Impulsive for Handled {
         impulse: &kept::Velocity,
         rates: &Self::Rates,
     ) -> (kept::Velocity, f64) {
-        Impulsive::jump(&self.model, t, &state.q, impulse, rates)
+        Impulsive::jump(&self.model, t, state, impulse, rates)
     }
 }
 

@@ -8,7 +8,7 @@ use super::speeds::{derivatives_are_slopes, with_rates};
 macro_rules! cars {
     ($($name:ident: { $($steer:tt)* } { $($more:tt)* })*) => {
         multibody! { $(
-            pub mod $name {
+            mod $name {
                 /// [m]
                 param base = 0.73;
                 /// [s]

@@ -23,7 +23,7 @@ fn impulsive(context: &Context<'_>) -> Option<TokenStream> {
     let impulse = context.function(FunctionKind::Impulse)?;
     context.function(FunctionKind::ForwardDynamics)?;
     let with_time = functions::arguments(impulse).has_time();
-    let [t, unread] = ["t", "_t"].map(names::ident);
+    let [t, unread, state] = ["t", "_t", "state"].map(names::ident);
     let time = if with_time { &t } else { &unread };
     let passed = functions::arguments(impulse).pass_state();
     let (ty, rates, value) = if layout.rows() > 0 {
@@ -39,7 +39,7 @@ fn impulsive(context: &Context<'_>) -> Option<TokenStream> {
         impl<T: Real> #krate::Impulsive for Model<T> {
             type Rates = #ty;
 
-            fn jump(&self, #time: T, state: &State<T>, impulse: &Velocity<T>, #rates: &#ty) -> (Velocity<T>, T) {
+            fn jump(&self, #time: T, #state: &State<T>, impulse: &Velocity<T>, #rates: &#ty) -> (Velocity<T>, T) {
                 #value
             }
         }

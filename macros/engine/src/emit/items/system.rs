@@ -322,6 +322,7 @@ fn constrained(context: &Context<'_>) -> Option<TokenStream> {
         return None;
     }
     let krate = layout.krate();
+    let [t, state] = ["t", "state"].map(names::ident);
     let residual = results::vector_type(layout, layout.rows());
     let of_velocities = results::vector_type(layout, layout.dof());
     let groups = layout.structure.row_groups(layout.model);
@@ -349,14 +350,14 @@ fn constrained(context: &Context<'_>) -> Option<TokenStream> {
             let (change, rank) = #krate::linear::#least_norm(&jacobian, residual, &weights #groups);
             (change.into(), rank)
         },
-        false => quote!(#krate::Constrained::correction(self, t, state, residual, weights)),
+        false => quote!(#krate::Constrained::correction(self, #t, #state, residual, weights)),
     };
     let along = match moved {
         true => quote! {
             let d: #sized = (*d).into();
             #jacobian * d
         },
-        false => quote!(#krate::Constrained::constraint_rate_along(self, t, state, d)),
+        false => quote!(#krate::Constrained::constraint_rate_along(self, #t, #state, d)),
     };
     Some(quote! {
         impl<T: Real> #krate::Constrained for Model<T> {
@@ -374,8 +375,8 @@ fn constrained(context: &Context<'_>) -> Option<TokenStream> {
 
             fn correction(
                 &self,
-                t: T,
-                state: &State<T>,
+                #t: T,
+                #state: &State<T>,
                 residual: &#residual,
                 weights: &#displacement<T>,
             ) -> (#displacement<T>, T) {
@@ -387,15 +388,15 @@ fn constrained(context: &Context<'_>) -> Option<TokenStream> {
 
             fn velocity_correction(
                 &self,
-                t: T,
-                state: &State<T>,
+                #t: T,
+                #state: &State<T>,
                 residual: &#residual,
                 weights: &Velocity<T>,
             ) -> (Velocity<T>, T) {
                 #of_velocities
             }
 
-            fn constraints_along(&self, t: T, state: &State<T>, d: &#displacement<T>) -> #residual {
+            fn constraints_along(&self, #t: T, #state: &State<T>, d: &#displacement<T>) -> #residual {
                 #along
             }
 
@@ -410,7 +411,7 @@ fn least(context: &Context<'_>, residual: &TokenStream) -> Option<TokenStream> {
     let krate = layout.krate();
     let function = context.function(FunctionKind::Displacement)?;
     let timed = functions::arguments(function).has_time();
-    let [t, unread] = ["t", "_t"].map(names::ident);
+    let [t, unread, state] = ["t", "_t", "state"].map(names::ident);
     let time = if timed { &t } else { &unread };
     let passed = functions::arguments(function).pass_state();
     let [columns, rank] = [layout.dof(); 2].map(Literal::usize_unsuffixed);
@@ -420,18 +421,18 @@ fn least(context: &Context<'_>, residual: &TokenStream) -> Option<TokenStream> {
     };
     if layout.structure.has_speeds() {
         return Some(quote! {
-            fn least_velocity_correction(&self, #time: T, state: &State<T>, residual: &#residual) -> ::core::option::Option<(Velocity<T>, T)> {
+            fn least_velocity_correction(&self, #time: T, #state: &State<T>, residual: &#residual) -> ::core::option::Option<(Velocity<T>, T)> {
                 #found
             }
         });
     }
     Some(quote! {
-        fn least_correction(&self, #time: T, state: &State<T>, residual: &#residual) -> ::core::option::Option<(Velocity<T>, T)> {
+        fn least_correction(&self, #time: T, #state: &State<T>, residual: &#residual) -> ::core::option::Option<(Velocity<T>, T)> {
             #found
         }
 
-        fn least_velocity_correction(&self, t: T, state: &State<T>, residual: &#residual) -> ::core::option::Option<(Velocity<T>, T)> {
-            #krate::Constrained::least_correction(self, t, state, residual)
+        fn least_velocity_correction(&self, #t: T, #state: &State<T>, residual: &#residual) -> ::core::option::Option<(Velocity<T>, T)> {
+            #krate::Constrained::least_correction(self, #t, #state, residual)
         }
     })
 }
