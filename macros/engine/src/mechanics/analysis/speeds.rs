@@ -260,7 +260,7 @@ impl Choice<'_> {
             return Complaint { at: self.model.site(), message: message.to_owned(), help: Some(help.to_owned()) };
         }
         let message = "equations of velocities depend on each other in a way that leaves no velocities to choose";
-        let help = "write `formulation { constraints: Multipliers }`";
+        let help = "write `formulation { constraints: Multipliers }`, or name other coordinates `independent`";
         Complaint { at: self.model.site(), message: message.to_owned(), help: Some(help.to_owned()) }
     }
 
