@@ -90,6 +90,38 @@ multibody! {
         emit forward_dynamics;
     }
 
+    /// A thin disc that rolls: five coordinates and three speeds, the components of its turn in axes that lean with it. The
+    /// rates of the coordinates follow without pivots.
+    pub(crate) mod rolling_disc {
+        /// [m]
+        const RADIUS = 0.25;
+        /// [kg]
+        param mass = 0.7;
+        world { gravity: -9.81 * Z }
+        body ahead { mass: 0 }
+        body aside { mass: 0 }
+        body above { mass: 0 }
+        body headed { mass: 0 }
+        body leaning { mass: 0 }
+        body disc { mass: mass, inertia: cylinder(mass, RADIUS, 0.0, Y) }
+        joint x: Prismatic { parent: ground, child: ahead, axis: X }
+        joint y: Prismatic { parent: ahead, child: aside, axis: Y }
+        joint z: Prismatic { parent: aside, child: above, axis: Z }
+        joint yaw: Revolute { parent: above, child: headed, axis: Z }
+        joint lean: Revolute { parent: headed, child: leaning, axis: X }
+        joint spin: Revolute { parent: leaning, child: disc, axis: Y }
+        constraint wheel: Rolling { wheel: disc, axis: Y, radius: RADIUS }
+        let turn = leaning.express(disc.angular_velocity);
+        /// [rad/s] over onto its side
+        speed tip = turn.x;
+        /// [rad/s] about its axle
+        speed roll = turn.y;
+        /// [rad/s] about the line to its contact
+        speed swerve = turn.z;
+        formulation { constraints: Reduced }
+        emit forward_dynamics;
+    }
+
     /// A spatial four-bar without a formula: the coupler turns about its length as the ball at its end lets it.
     pub(crate) mod spatial_four_bar {
         world { gravity: -9.81 * Z }

@@ -6,6 +6,7 @@ mod newton;
 mod panda;
 mod projection;
 mod quadrotor;
+mod rolling;
 mod stewart;
 
 pub use cart_pole::CartPole;
@@ -14,6 +15,7 @@ pub use newton::Newton;
 pub use panda::Panda;
 pub use projection::Projected;
 pub use quadrotor::Quadrotor;
+pub use rolling::Rolling;
 pub use stewart::Stewart;
 
 use crate::Scalar;

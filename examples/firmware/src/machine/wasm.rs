@@ -1,7 +1,7 @@
 //! A WebAssembly module: one function for each scene, that gives the hash; a panic would be an import that is not there.
 
 use crate::report::digest;
-use crate::scenes::{CartPole, DoublePendulum, Newton, Panda, Projected, Quadrotor, Stewart};
+use crate::scenes::{CartPole, DoublePendulum, Newton, Panda, Projected, Quadrotor, Rolling, Stewart};
 
 macro_rules! exports {
     ($($name:ident = $scene:ty;)+) => {
@@ -23,6 +23,7 @@ exports! {
     quadrotor = Quadrotor;
     newton = Newton;
     projection = Projected;
+    rolling = Rolling;
 }
 
 /// There is nothing to print on.
