@@ -8,10 +8,10 @@ use crate::{PositionOf, SecondOrder, VelocityOf};
 /// Generated models for which this is so implement it: the mass matrix is constant and so is every damping, which is
 /// none. Explicit symmetric compositions apply to such systems alone.
 #[diagnostic::on_unimplemented(
-    message = "the accelerations of `{Self}` depend on velocities",
+    message = "the accelerations of `{Self}` depend on velocities, or its velocities are not the rates of its coordinates",
     label = "this has to be `Separable`",
     note = "`multibody!` finds by itself where accelerations depend on time, positions and inputs alone: no damping, and a mass matrix that is constant",
-    note = "for any other model take `ImplicitMidpoint`, or `SymplecticMidpoint` with `emit momentum`, or `Rk4`",
+    note = "for any other model take `ImplicitMidpoint` or `Rk4`, or, where velocities are the rates of coordinates, `SymplecticMidpoint` with `emit momentum`",
     note = "a model with `speed` items, or with speeds that are eliminated, never is: its velocities are not the rates of coordinates"
 )]
 pub trait Separable: SecondOrder {}
@@ -25,7 +25,7 @@ impl<S: Separable + ?Sized> Separable for &S {}
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not written in momenta",
     label = "this has to be `Canonical`",
-    note = "a model of `multibody!` is with `emit forward_dynamics, momentum`",
+    note = "a model of `multibody!` is with `emit forward_dynamics, momentum`, where its velocities are the rates of coordinates",
     note = "a model with `speed` items, or with speeds that are eliminated, never is: take `ImplicitMidpoint`, `GaussLegendre4` or `GaussLegendre6`"
 )]
 pub trait Canonical: SecondOrder {
