@@ -11,5 +11,6 @@ mod contacts;
 mod hinged;
 mod known;
 mod steered;
+mod touching;
 mod wheels;
 mod whipple;
