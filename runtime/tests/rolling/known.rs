@@ -75,33 +75,6 @@ four_ways!([coin_held, coin, coin_chosen, coin_beside], [x, y, yaw, lean, spin],
     speed by_z = disc.velocity.z;
 });
 
-/// Calls a macro with each of four modules, and whether its equations are held.
-macro_rules! each_way {
-    ($check:ident: $held:ident, $reduced:ident, $chosen:ident, $beside:ident) => {
-        $check!($held, true);
-        $check!($reduced, false);
-        $check!($chosen, false);
-        $check!($beside, true);
-    };
-}
-
-/// By an explicit method; with a projection where equations are held.
-macro_rules! run {
-    ($model:expr, true, $until:expr, $start:expr, $look:expr) => {
-        Integrator::adaptive(Dop853, 1e-14, 1e-14).integrate(
-            &WithProjection::new($model, Projection::default()),
-            0.0,
-            $until,
-            $start,
-            &(),
-            $look,
-        )
-    };
-    ($model:expr, false, $until:expr, $start:expr, $look:expr) => {
-        Integrator::adaptive(Dop853, 1e-14, 1e-14).integrate(&$model, 0.0, $until, $start, &(), $look)
-    };
-}
-
 /// The centre of a solid ball on a plate that turns runs on a circle at two sevenths of its rate, about a point that the start sets, and its
 /// spin about the vertical stays.
 #[test]
@@ -121,7 +94,7 @@ fn a_solid_ball_on_a_turning_plate() {
             (start.q.x, start.q.y, start.q.turn) = (place.x, place.y, orientation);
             let start = with_rates(&model, 0.0, &start, &[velocity.x, velocity.y, own.x, own.y, own.z]);
             let mut looked = 0;
-            run!(model, $held, 4.0, &start, |t, state| {
+            run!(model, $held, 0.0, 4.0, &start, &(), |t, state| {
                 let out = model.outputs(t, state, &());
                 let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), rate * t);
                 let wanted = centre + turn * (place - centre);
@@ -170,7 +143,7 @@ fn a_disc_runs() {
                 let before = model.outputs(0.0, &start, &());
                 assert!((before.place.z - r * cos).abs() < 1e-14 && (before.twist[0] - v).amax() < 1e-13);
                 let centre = before.place + Vector3::z().cross(&v) / yaw_rate;
-                let (end, _) = run!(model, $held, 1.5, &start, |t, state| {
+                let (end, _) = run!(model, $held, 0.0, 1.5, &start, &(), |t, state| {
                     let out = model.outputs(t, state, &());
                     assert!((out.energy / before.energy - 1.0).abs() < 1e-12, "{} {}", out.energy, before.energy);
                     if pushed == 0.0 {

@@ -7,10 +7,13 @@ mod speeds;
 
 mod beside;
 mod blades;
+mod car;
 mod contacts;
 mod hinged;
 mod known;
 mod steered;
 mod touching;
+mod sleigh;
+mod snakeboard;
 mod wheels;
 mod whipple;

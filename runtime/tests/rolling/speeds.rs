@@ -8,37 +8,77 @@ use multibody::{
 };
 
 /// One mechanism with multipliers, reduced, and reduced in speeds of its own; with multipliers in these and as many more as these leave
-/// rates open.
+/// rates open. With `paths` there is nothing but what runs take.
 macro_rules! four_ways {
+    ($names:tt, $independent:tt, $items:tt, $speeds:tt, $more:tt) => {
+        four_ways!(@emit
+            [forward_dynamics, constraints, impulse],
+            [forward_dynamics, inverse_dynamics, mass_matrix, bias, energy, derivatives, linearize, impulse],
+            [forward_dynamics, inverse_dynamics, mass_matrix, bias, energy, derivatives, linearize],
+            $names, $independent, $items, $speeds, $more);
+    };
+    (paths $names:tt, $independent:tt, $items:tt, $speeds:tt, $more:tt) => {
+        four_ways!(@emit
+            [forward_dynamics], [forward_dynamics], [forward_dynamics],
+            $names, $independent, $items, $speeds, $more);
+    };
     (
-        [$held:ident, $reduced:ident, $chosen:ident, $beside:ident], [$($independent:ident),*],
+        @emit [$($of_held:tt)*], [$($of_beside:tt)*], [$($of_reduced:tt)*],
+        [$held:ident, $reduced:ident, $chosen:ident, $beside:ident], $independent:tt,
         { $($items:tt)* }, { $($speeds:tt)* }, { $($more:tt)* }
     ) => {
         multibody! {
             pub(crate) mod $held {
                 $($items)*
                 formulation { constraints: Multipliers }
-                emit forward_dynamics, constraints, impulse;
+                emit $($of_held)*;
             }
             pub(crate) mod $beside {
                 $($items)*
                 $($speeds)*
                 $($more)*
                 formulation { constraints: Multipliers }
-                emit forward_dynamics, inverse_dynamics, mass_matrix, bias, energy, derivatives, linearize, impulse;
+                emit $($of_beside)*;
             }
             pub(crate) mod $reduced {
                 $($items)*
-                formulation { constraints: Reduced, independent: [$($independent),*] }
-                emit forward_dynamics, inverse_dynamics, mass_matrix, bias, energy, derivatives, linearize;
+                formulation { constraints: Reduced, independent: $independent }
+                emit $($of_reduced)*;
             }
             pub(crate) mod $chosen {
                 $($items)*
                 $($speeds)*
-                formulation { constraints: Reduced, independent: [$($independent),*] }
-                emit forward_dynamics, inverse_dynamics, mass_matrix, bias, energy, derivatives, linearize;
+                formulation { constraints: Reduced, independent: $independent }
+                emit $($of_reduced)*;
             }
         }
+    };
+}
+
+/// Calls a macro with each of four modules, and whether its equations are held.
+macro_rules! each_way {
+    ($check:ident: $held:ident, $reduced:ident, $chosen:ident, $beside:ident) => {
+        $check!($held, true);
+        $check!($reduced, false);
+        $check!($chosen, false);
+        $check!($beside, true);
+    };
+}
+
+/// By an explicit method; with a projection where equations are held.
+macro_rules! run {
+    ($model:expr, true, $from:expr, $until:expr, $start:expr, $input:expr, $look:expr) => {
+        Integrator::adaptive(Dop853, 1e-14, 1e-14).integrate(
+            &WithProjection::new($model, Projection::default()),
+            $from,
+            $until,
+            $start,
+            $input,
+            $look,
+        )
+    };
+    ($model:expr, false, $from:expr, $until:expr, $start:expr, $input:expr, $look:expr) => {
+        Integrator::adaptive(Dop853, 1e-14, 1e-14).integrate(&$model, $from, $until, $start, $input, $look)
     };
 }
 
@@ -356,6 +396,14 @@ pub(crate) fn projections_agree<H, B>(
     let plain = Projection::default().project(beside, t, &same).unwrap().state;
     assert!(flat(&beside.constraints(t, &plain.split().0)).iter().all(|gap| gap.abs() < 1e-12));
     assert!(flat(&beside.constraint_rate(t, &plain)).iter().all(|gap| gap.abs() < 1e-11));
+}
+
+/// Runs that end alike.
+pub(crate) fn same_ends(ends: &[Vec<f64>]) {
+    for other in &ends[1..] {
+        let apart = other.iter().zip(&ends[0]).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(apart < 1e-10, "{other:?} {:?}", ends[0]);
+    }
 }
 
 pub(crate) fn agree(found: &[Vector3<f64>], wanted: &[Vector3<f64>]) {
