@@ -43,6 +43,80 @@ fn wheels_of_one_axle() {
     assert!(structure.notes.iter().any(|note| note.contains("redundant equations of velocities, left out: `right`")));
 }
 
+/// Four wheels that Ackermann's law steers turn about one point, so one on each axle says it all; on any road, and of wheels that roll
+/// what they say along stays.
+#[test]
+fn wheels_of_a_steered_car() {
+    let road = "let road = ground.rotated([1.0, 0.4, 0.2], 0.7);
+         body chassis { mass: 20.0, com: [0.5, 0.07, 0.2], inertia: diag(2.0, 3.0, 4.0) }
+         body left { mass: 1.5, inertia: diag(0.1, 0.1, 0.1) }
+         body right { mass: 1.5, inertia: diag(0.1, 0.1, 0.1) }
+         joint plane: Planar { parent: road.at(0.3 * Z), child: chassis, axis: Z }
+         joint steer_left: Revolute { parent: chassis.at([1.3, 0.4, 0.0]), child: left, axis: Z }
+         joint steer_right: Revolute { parent: chassis.at([1.3, -0.4, 0.0]), child: right, axis: Z }";
+    let blades = "constraint rear_left: Skate { blade: chassis.at(0.4 * Y), along: X, on: road }
+         constraint rear_right: Skate { blade: chassis.at(-0.4 * Y), along: X, on: road }
+         constraint front_left: Skate { blade: left, along: X, on: road }
+         constraint front_right: Skate { blade: right, along: X, on: road }";
+    let wheels = "body one { mass: 1.0, inertia: diag(0.02, 0.03, 0.02) }
+         body two { mass: 1.0, inertia: diag(0.02, 0.03, 0.02) }
+         body three { mass: 1.0, inertia: diag(0.02, 0.03, 0.02) }
+         body four { mass: 1.0, inertia: diag(0.02, 0.03, 0.02) }
+         joint first: Revolute { parent: chassis.at(0.4 * Y), child: one, axis: Y }
+         joint second: Revolute { parent: chassis.at(-0.4 * Y), child: two, axis: Y }
+         joint third: Revolute { parent: left, child: three, axis: Y }
+         joint fourth: Revolute { parent: right, child: four, axis: Y }
+         constraint rear_left: Rolling { wheel: one, axis: Y, radius: 0.3, on: road }
+         constraint rear_right: Rolling { wheel: two, axis: Y, radius: 0.3, on: road }
+         constraint front_left: Rolling { wheel: three, axis: Y, radius: 0.3, on: road }
+         constraint front_right: Rolling { wheel: four, axis: Y, radius: 0.3, on: road }";
+    let aside = ["rear_right.across", "front_right.across"];
+    // cot(right) - cot(left) is track by base; the second is that times all that it divides by.
+    for law in [
+        "cos(steer_right) / sin(steer_right) - cos(steer_left) / sin(steer_left) - 0.8 / 1.3",
+        "1.3 * sin(steer_left - steer_right) - 0.8 * sin(steer_left) * sin(steer_right)",
+    ] {
+        for (ground, left_out, kept) in [
+            (blades, vec![], vec!["rear_left.across", "front_left.across"]),
+            (
+                wheels,
+                vec!["rear_left.touch", "rear_right.touch", "front_left.touch", "front_right.touch"],
+                vec![
+                    "rear_left.along",
+                    "rear_left.across",
+                    "rear_right.along",
+                    "front_left.along",
+                    "front_left.across",
+                    "front_right.along",
+                ],
+            ),
+        ] {
+            let car = model_with("", &format!("{road} constraint steering = {law}; {ground}"));
+            let structure = sound(&car);
+            assert_eq!(names(&car, &structure.dropped), [&left_out[..], &aside].concat(), "{law}");
+            assert_eq!(names(&car, &structure.rows), [&["steering"], &kept[..]].concat(), "{law}");
+            let told = "redundant equations of velocities, left out: `rear_right.across`, `front_right.across`";
+            assert!(structure.notes.iter().any(|note| note.contains(told)), "{:?}", structure.notes);
+        }
+    }
+    // Whatever track and base are: with others the law is kept at other angles. Where they are the law's alone it holds as declared only.
+    let law = "cos(steer_right) / sin(steer_right) - cos(steer_left) / sin(steer_left) - 2.0 * half / base";
+    let open = format!("param half = 0.4; param base = 1.3; {road} constraint steering = {law}; {blades}");
+    let adjusted = open.replace("1.3, ", "base, ").replace("0.4 * Y", "half * Y").replace("0.4, 0.0]", "half, 0.0]");
+    let car = model_with("", &adjusted);
+    assert_eq!(names(&car, &sound(&car).dropped), aside);
+    let told: Vec<String> =
+        analyse(&model_with("", &open)).expect_err("a complaint").into_iter().map(|one| one.message).collect();
+    assert_eq!(
+        told,
+        ["the constraint `front_right.across` follows from others, or contradicts them, wherever it was looked at"]
+    );
+    // By another law the wheels are at odds, and all say something.
+    let odd = model_with("", &format!("{road} constraint steering = steer_right - 0.8 * steer_left; {blades}"));
+    let structure = sound(&odd);
+    assert_eq!(names(&odd, &structure.dropped), ["rear_right.across"]);
+}
+
 /// Rows that are independent at some time, or with a velocity that is driven, stay.
 #[test]
 fn what_is_independent_at_other_times_stays() {

@@ -2,9 +2,10 @@
 //!
 //! In: the equations as numbers, closed configurations. Out: all of them behind those of positions, but for what depends on
 //! equations before it, of positions or of velocities, in all these configurations and asks for the same: rows of analytic
-//! functions that depend on each other at random poses, and with other parameters, do so everywhere. Where the functions are in
-//! pieces, follow time, drives or states of the user's own, or are what they are for the declared parameters alone, poses prove nothing. Such a row is refused:
-//! rounding would decide which of the rows is kept, and positions are moved by rows of positions alone.
+//! functions that depend on each other at random poses, and with other parameters where loops are closed for these, do so everywhere.
+//! Where the functions are in pieces, follow time, drives or states of the user's own, or are what they are for the declared parameters
+//! alone, poses prove nothing. Such a row is refused: rounding would decide which of the rows is kept, and positions are moved by rows of
+//! positions alone.
 
 use crate::invariant::fault::raise;
 use crate::mechanics::loops::constraints::row_name;
@@ -14,6 +15,7 @@ use crate::model::types::{LoopClosure, Model};
 
 use super::Complaint;
 
+use super::configurations::Search;
 use super::problem::{Point, Problem, Random, Source};
 use super::speeds;
 use super::tape::Values;
@@ -22,6 +24,8 @@ use super::tape::Values;
 const POSES: usize = 9;
 /// What is left of a row that depends on others, as a share of it.
 const DEPENDENT: f64 = 1e-9;
+/// Of the poses with other parameters, the least that tell of anything that holds everywhere.
+const LEAST: usize = 2;
 /// Parameters are off their defaults by about this much.
 const OFF: f64 = 0.1;
 /// The latest time that is looked at. [s]
@@ -61,8 +65,7 @@ pub(super) fn keep(model: &Model, problem: &Problem, structure: &mut Structure) 
             kept.push(number);
             continue;
         }
-        let robust =
-            || judge.at_all(&Problem::with(model, OFF), number, &kept).iter().all(|&one| one == Beside::Follows);
+        let robust = || judge.with_other_parameters(&Problem::with(model, OFF), number, &kept);
         let partners = judge.partners(number, &kept);
         if proof && found.iter().all(|&one| one == Beside::Follows) && robust() {
             let from = partners.map_or(String::new(), |partners| format!(" (from {partners})"));
@@ -148,6 +151,33 @@ impl Judge<'_> {
         self.points.iter().map(|point| self.beside(problem, point, number, kept)).collect()
     }
 
+    /// Whether it follows with other parameters too: where loops are closed for these, since the equations may read no parameter that moves
+    /// what closes. Loops that don't close with them are looked at where they stand.
+    fn with_other_parameters(&self, moved: &Problem, number: usize, kept: &[usize]) -> bool {
+        let closed = self.closed_again(moved);
+        let points = if closed.len() >= LEAST { &closed } else { self.points };
+        let judge = Judge { points, ..*self };
+        judge.at_all(moved, number, kept).iter().all(|&one| one == Beside::Follows)
+    }
+
+    /// Its poses, moved to where the equations of positions are closed for the parameters of another problem.
+    fn closed_again(&self, moved: &Problem) -> Vec<Point> {
+        let equations = self.of_positions(moved);
+        let columns: Vec<usize> = (0..moved.columns.len()).collect();
+        let search = Search::new(moved, &equations, &columns);
+        let mut values = Values::default();
+        let points = self.points.iter().map(|point| placed(moved, point));
+        points.filter_map(|mut point| search.close(&mut point, &mut values).then_some(point)).collect()
+    }
+
+    /// Equations of positions that are independent.
+    fn of_positions(&self, problem: &Problem) -> Vec<usize> {
+        let own = |row: Row| self.structure.independent.contains(&row);
+        (0..problem.equations.len())
+            .filter(|&k| matches!(problem.equations[k].source, Source::Row(row) if own(row)))
+            .collect()
+    }
+
     /// Whether any velocity that no drive gives has a say in it.
     fn moves(&self, number: usize) -> bool {
         let mut values = Values::default();
@@ -184,11 +214,7 @@ impl Judge<'_> {
     }
 
     fn beside(&self, problem: &Problem, point: &Point, number: usize, kept: &[usize]) -> Beside {
-        // Parameters are part of a point: those of the other set are put in.
-        let mut own = problem.at(&problem.positions(point));
-        problem.time_at(point).into_iter().for_each(|time| problem.put_time(&mut own, time));
-        problem.take_states(&mut own, point);
-        let point = own;
+        let point = placed(problem, point);
         let mut values = Values::default();
         let dense = |row: &[(usize, f64)]| {
             let mut dense = vec![0.0; problem.columns.len()];
@@ -198,11 +224,7 @@ impl Judge<'_> {
             }
             dense
         };
-        let own = |row: Row| self.structure.independent.contains(&row);
-        let of_positions: Vec<usize> = (0..problem.equations.len())
-            .filter(|&k| matches!(problem.equations[k].source, Source::Row(row) if own(row)))
-            .collect();
-        let positions = problem.linearise(&point, &of_positions, &mut values);
+        let positions = problem.linearise(&point, &self.of_positions(problem), &mut values);
         let rates = problem.rates_at(&point, &mut values);
         let mut basis: Vec<Gradient> = Vec::new();
         let before = positions.rows.iter().map(|row| (dense(row), 0.0));
@@ -228,6 +250,14 @@ impl Judge<'_> {
             false => Beside::Contradicts,
         }
     }
+}
+
+/// Parameters are part of a point: those of the problem are put in.
+fn placed(problem: &Problem, point: &Point) -> Point {
+    let mut own = problem.at(&problem.positions(point));
+    problem.time_at(point).into_iter().for_each(|time| problem.put_time(&mut own, time));
+    problem.take_states(&mut own, point);
+    own
 }
 
 fn length(row: &[f64]) -> f64 {
