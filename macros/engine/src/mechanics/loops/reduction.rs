@@ -114,7 +114,7 @@ impl Equations<'_> {
             self.define(&definitions, at_once, &mut reduction, &mut rates);
             reduction.definitions.extend(definitions);
         }
-        self.close(&mut reduction, &rates);
+        self.close(&mut reduction, &mut rates);
         reduction.displacements.clone_from(&reduction.rates);
         if structure.has_speeds() {
             self.follow_speeds(&mut reduction, &rates);
@@ -123,7 +123,7 @@ impl Equations<'_> {
     }
 
     /// Couplings stand first, in terms of coordinates that later steps find: these are put into what was defined before.
-    fn close(&mut self, reduction: &mut Reduction, rates: &Map) {
+    fn close(&mut self, reduction: &mut Reduction, rates: &mut Map) {
         if reduction.coupled.is_empty() {
             return;
         }
@@ -139,11 +139,15 @@ impl Equations<'_> {
             reduction.map.extend(open.into_iter().map(|entry| entry.0).zip(values));
         }
         for _ in 0..=reduction.coupled.len() {
-            for at in 0..reduction.rates.len() {
-                let rate = reduction.rates[at].1;
-                reduction.rates[at].1 = self.g.substitute(&[rate], rates)[0];
-            }
+            let mut open: Vec<(SymbolId, Scalar)> = rates.iter().map(|(&id, &value)| (id, value)).collect();
+            open.sort_unstable_by_key(|entry| entry.0);
+            let values: Vec<Scalar> = open.iter().map(|entry| entry.1).collect();
+            let values = self.g.substitute(&values, rates);
+            rates.extend(open.into_iter().map(|entry| entry.0).zip(values));
         }
+        let values: Vec<Scalar> = reduction.rates.iter().map(|entry| entry.1).collect();
+        let values = self.g.substitute(&values, rates);
+        reduction.rates.iter_mut().zip(values).for_each(|(entry, value)| entry.1 = value);
     }
 
     /// Adds the definitions of one step to the maps, several at once: first all positions, which rates are written with, then all
