@@ -414,16 +414,15 @@ impl ReductionSearch<'_> {
         Ok(steps)
     }
 
-    /// One equation that is solved for its unknown, if no coupling gives what it reads.
+    /// One equation that is solved for its unknown, if no coupling gives what it reads from that.
     fn explicit(&self, rows: &[Row], unknowns: &[Coordinate]) -> Option<Means> {
         let (&[Row { closing: LoopClosure::Constraint(id), .. }], &[unknown]) = (rows, unknowns) else { return None };
         let place = self.row_of_constraint(id)?;
         let columns = &self.problem.equations[self.group.equations[place]].columns;
-        let is_coupled = |&column: &usize| {
-            self.eliminations.iter().any(|one| one.unknown == self.problem.columns[column].coordinate)
-        };
-        let stands_alone = !columns.iter().any(is_coupled) && linear::stands_alone(self.model, id, unknown);
-        stands_alone.then_some(Means::Explicit(id))
+        let read = columns.iter().map(|&column| self.problem.columns[column].coordinate);
+        let others = read.filter(|&coordinate| coordinate != unknown).collect();
+        let leads_back = self.seen_through(others).contains(&unknown) || self.coupling_of(unknown).is_some();
+        (!leads_back && linear::stands_alone(self.model, id, unknown)).then_some(Means::Explicit(id))
     }
 
     /// From a guess a thread that doesn't count its turns could be found on another one.
@@ -448,21 +447,29 @@ impl ReductionSearch<'_> {
 
     /// Columns that an equation depends on, couplings seen through.
     fn depends(&self, place: usize) -> Vec<usize> {
-        let mut open: Vec<Coordinate> = self.problem.equations[self.group.equations[place]]
-            .columns
-            .iter()
-            .map(|&column| self.problem.columns[column].coordinate)
-            .collect();
-        let mut found = Vec::new();
-        while let Some(coordinate) = open.pop() {
-            match self.eliminations.iter().find(|one| one.unknown == coordinate) {
-                Some(one) => open.extend(one.others.iter().copied()),
-                None => found.extend(self.column(coordinate)),
-            }
-        }
+        let columns = &self.problem.equations[self.group.equations[place]].columns;
+        let read = columns.iter().map(|&column| self.problem.columns[column].coordinate).collect();
+        let mut found: Vec<usize> =
+            self.seen_through(read).into_iter().filter_map(|coordinate| self.column(coordinate)).collect();
         found.sort_unstable();
         found.dedup();
         found
+    }
+
+    /// Coordinates with what couplings give them from in their places.
+    fn seen_through(&self, mut open: Vec<Coordinate>) -> Vec<Coordinate> {
+        let mut found = Vec::new();
+        while let Some(coordinate) = open.pop() {
+            match self.coupling_of(coordinate) {
+                Some(one) => open.extend(one.others.iter().copied()),
+                None => found.push(coordinate),
+            }
+        }
+        found
+    }
+
+    fn coupling_of(&self, coordinate: Coordinate) -> Option<&Elimination> {
+        self.eliminations.iter().copied().find(|one| one.unknown == coordinate)
     }
 }
 
