@@ -3,7 +3,7 @@
 use multibody::nalgebra::{Matrix3, Rotation3, SVector, UnitQuaternion, Vector3};
 use multibody::{Dop853, Integrator, Projection, WithProjection, multibody};
 
-use crate::beside::car_held as car;
+use crate::car::car_held as car;
 
 multibody! {
     /// A solid ball on a slope that lies obliquely in space, and gravity as oblique.
