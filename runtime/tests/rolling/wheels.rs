@@ -3,8 +3,6 @@
 use multibody::nalgebra::{Matrix3, Rotation3, SVector, UnitQuaternion, Vector3};
 use multibody::{Dop853, Integrator, Projection, WithProjection, multibody};
 
-use crate::car::car_held as car;
-
 multibody! {
     /// A solid ball on a slope that lies obliquely in space, and gravity as oblique.
     pub mod slope {
@@ -222,42 +220,6 @@ fn a_disc_in_oblique_frames() {
         assert!((turn * a.contact - b.contact).amax() < 1e-13);
         assert!((turn * a.force - b.force).amax() < 1e-11 * (1.0 + a.force.amax()));
     }
-}
-
-/// All wheels turn about one centre on the rear axle, and what the motor does is what the car gains.
-#[test]
-fn a_car_about_its_centre() {
-    let model = car::Model::<f64>::default();
-    // Of sixteen equations: four touch where they do anyway, two rear wheels keep one axle, the front wheels one centre.
-    assert_eq!(car::CONSTRAINTS, 7);
-    let system = WithProjection::new(model, Projection::default());
-    let mut start = car::State::<f64>::default();
-    let inner: f64 = 0.5;
-    let outer = 1.0_f64.atan2(1.0 / inner.tan() + 0.8 / 1.3);
-    (start.q.steer_left, start.q.steer_right) = (inner, outer);
-    start.q.plane.angle = 1.1;
-    let centre = 1.3 / inner.tan() + 0.4;
-    let rate = 0.6;
-    (start.v.plane.x, start.v.plane.y) = (rate * centre * 1.1_f64.cos(), rate * centre * 1.1_f64.sin());
-    start.v.plane.angle = rate;
-    start.v.spin_left = rate * (centre - 0.4) / 0.3;
-    start.v.spin_right = rate * (centre + 0.4) / 0.3;
-    start.v.roll_left = rate * (centre - 0.4).hypot(1.3) * (centre - 0.4).signum() / 0.3;
-    start.v.roll_right = rate * (centre + 0.4).hypot(1.3) / 0.3;
-    let out = model.outputs(0.0, &start, &car::Input::default());
-    assert!(model.constraints(0.0, &start.q).amax() < 1e-15);
-    assert!(model.constraint_rate(0.0, &start).amax() < 1e-14);
-    assert!(out.slips.iter().all(|slip| slip.amax() < 1e-14), "{:?}", out.slips);
-    let (push, turn) = (1.3, 0.4);
-    let input = car::Input { push, turn };
-    let (end, _) =
-        Integrator::adaptive(Dop853, 1e-12, 1e-12).integrate(&system, 0.0, 2.0, &start, &input, |_, _| ()).unwrap();
-    let after = model.outputs(0.0, &end, &input);
-    // Those that were left out hold as well.
-    assert!(after.slips.iter().all(|slip| slip.amax() < 1e-10), "{:?}", after.slips);
-    let work = push * (end.q.spin_left - start.q.spin_left) + turn * (end.q.steer_left - start.q.steer_left);
-    assert!((end.q.steer_left - inner).abs() > 0.05);
-    assert!((after.energy - out.energy - work).abs() < 1e-11 * out.energy, "{} {work}", after.energy - out.energy);
 }
 
 /// Work of the rider is what the board gains; forces are across the blades, and about their common centre nothing turns.
