@@ -98,6 +98,11 @@ impl<'m> States<'m> {
         States { model, structure, symbols, table, inertial: model.inertial_states() }
     }
 
+    /// Whether a body's mass follows a state.
+    pub(super) fn is_inertial(&self, state: StateId) -> bool {
+        self.inertial.contains(&state)
+    }
+
     /// Number of the graph's symbol that stands for this.
     pub(super) fn place(&self, symbol: Symbol) -> Option<usize> {
         let (list, item, element) = address(symbol);

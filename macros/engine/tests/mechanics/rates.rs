@@ -95,7 +95,8 @@ fn wheels_of_a_steered_car() {
             let structure = sound(&car);
             assert_eq!(names(&car, &structure.dropped), [&left_out[..], &aside].concat(), "{law}");
             assert_eq!(names(&car, &structure.rows), [&["steering"], &kept[..]].concat(), "{law}");
-            let told = "redundant equations of velocities, left out: `rear_right.across`, `front_right.across`";
+            let told = "redundant equations of velocities, left out: `rear_right.across` (from `rear_left.across`), \
+                        `front_right.across` (from `rear_left.across`, `front_left.across`)";
             assert!(structure.notes.iter().any(|note| note.contains(told)), "{:?}", structure.notes);
         }
     }
@@ -109,7 +110,9 @@ fn wheels_of_a_steered_car() {
         analyse(&model_with("", &open)).expect_err("a complaint").into_iter().map(|one| one.message).collect();
     assert_eq!(
         told,
-        ["the constraint `front_right.across` follows from others, or contradicts them, wherever it was looked at"]
+        [
+            "the constraint `front_right.across` follows from `rear_left.across`, `front_left.across`, or contradicts that, wherever it was looked at"
+        ]
     );
     // By another law the wheels are at odds, and all say something.
     let odd = model_with("", &format!("{road} constraint steering = steer_right - 0.8 * steer_left; {blades}"));

@@ -2,7 +2,7 @@
 
 use multibody_engine::mechanics::analysis::analyse;
 use multibody_engine::mechanics::loops::constraints::coordinate_name;
-use multibody_engine::mechanics::loops::structure::Structure;
+use multibody_engine::mechanics::loops::structure::{Means, Step, Structure};
 use multibody_engine::model::types::{Coordinate, Model};
 
 use multibody_engine::model::types::Request;
@@ -98,6 +98,64 @@ fn beside_multipliers() {
     ));
     assert_eq!(names(&model, kept.speeds()), ["plane.angle", "ahead", "aside"]);
     assert_eq!((kept.rows.len(), kept.rates.rows.len(), kept.rates.held.len()), (1, 0, 0));
+}
+
+/// What a coupling gives may follow from what an equation gives, and the other way about, before rates follow from velocities: the height
+/// of a wheel stands alone all the same.
+#[test]
+fn couplings_beside_wheels() {
+    let disc = "body disc { mass: 1.0, com: [0.01, 0.02, 0.03], inertia: diag(0.1, 0.12, 0.13) }
+        body rider { mass: 0.7, com: [0.1, 0.02, 0.03], inertia: diag(0.02, 0.012, 0.013) }
+        joint float: Free { parent: ground, child: disc, coordinates: RollPitchYaw }
+        joint slide: Prismatic { parent: disc.at([0.1, 0.2, 0.3]), child: rider, axis: [1, 2, 0.5] }
+        constraint roll: Rolling { wheel: disc, axis: [0.1, 1, 0.2], radius: 0.255, on: ground }
+        formulation { constraints: Reduced }";
+    for couplings in [
+        "constraint one = float.pitch + float.roll;",
+        "constraint one = -1.777 * float.pitch + 1.1 * float.roll + 0.7;",
+        "constraint one = 1.3 * float.pitch + float.roll - 0.2 * slide;
+         constraint other = slide - 0.3 * sin(float.roll) - 0.1 * float.x;",
+        // The height leads back to itself: it doesn't stand alone.
+        "constraint one = float.pitch + float.roll - 2.0 * float.z;",
+    ] {
+        let model = model_with(
+            "",
+            &format!(
+                "world {{ gravity: [0.3, -0.2, -9.7] }} {disc} {couplings} emit forward_dynamics, energy, bias, mass_matrix;"
+            ),
+        );
+        let (structure, _) = compile(&model).unwrap_or_else(|_| panic!("{couplings}"));
+        let explicit = |step: &Step| matches!(step.means, Means::Explicit(_));
+        let found: Vec<Coordinate> =
+            structure.steps.iter().filter(|step| explicit(step)).flat_map(|step| step.unknowns.clone()).collect();
+        assert_eq!(
+            names(&model, &found).contains(&"float.z".to_owned()),
+            !couplings.contains("float.z"),
+            "{couplings}"
+        );
+    }
+}
+
+/// Speeds that are nothing in whole regions are told by name; what vanishes in single poses is the user's.
+#[test]
+fn speeds_in_pieces() {
+    let slider =
+        "body b { mass: 1.0, inertia: diag(0.1, 0.1, 0.2) } joint p: Planar { parent: ground, child: b, axis: Z }";
+    let analysed = |speed: &str| {
+        analyse(&model_with(
+            "",
+            &format!("{slider} speed v = p.y.rate; speed u = {speed}; speed w = p.angle.rate + 0.3 * p.y.rate;"),
+        ))
+    };
+    for speed in ["max(p.x, 0.0) * p.x.rate", "select(p.x > p.y, 1.0, 0.0) * p.x.rate + p.y.rate"] {
+        let said = analysed(speed).expect_err(speed);
+        assert!(
+            said[0].message.starts_with("in many poses the speed `u` tells nothing"),
+            "{speed}: {}",
+            said[0].message
+        );
+    }
+    assert!(analysed("p.x * p.x.rate").is_ok() && analysed("abs(p.x) * p.x.rate").is_ok());
 }
 
 #[test]

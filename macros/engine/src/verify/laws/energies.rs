@@ -4,9 +4,10 @@ use crate::contracts::function::FunctionKind;
 use crate::contracts::results::Slot;
 use crate::contracts::symbol::Symbol;
 use crate::mechanics::translate::symbols::has_quaternion;
-use crate::model::types::{Coordinate, InputId};
+use crate::model::types::{Coordinate, InputId, StateId};
 use crate::optimize::program::Doubt;
 use crate::symbolic::doubled::Doubled;
+use crate::verify::trace::Slopes;
 
 use super::{At, EXACT, Judged, Law, Sum, acceleration, forces, judged, velocity};
 
@@ -189,7 +190,8 @@ impl At<'_, '_> {
     /// the equations of motion, from energies that share nothing with the recursions of the dynamics. Since T is v M v / 2, r p is
     /// (T(v + r) - T(v - r)) / 2. Velocities w that are no rates of coordinates, those of quaternions, have r (w x p) beside it
     /// (Hamel). Forces that vanish at rest without inputs and are linear in velocities are opposite in opposite motions, so
-    /// half the sum over both leaves inertia, weight and springs.
+    /// half the sum over both leaves inertia, weight and springs. Where rates follow from velocities by own states x, a wheel that is steered,
+    /// the energy changes by dT/dx x' too, of which the part is left that changes its sign with the motion.
     fn lagrange(&mut self) -> Judged {
         let (t, u) = (FunctionKind::KineticEnergy, FunctionKind::PotentialEnergy);
         let (fd, id, b) = (FunctionKind::ForwardDynamics, FunctionKind::InverseDynamics, FunctionKind::Bias);
@@ -263,6 +265,11 @@ impl At<'_, '_> {
         let potential = self.with(u, &moving(&v))?.slopes::<Doubled>(&[1.0], symbols);
         let (one, other) = (self.with(kind, &moving(&v))?, self.with(kind, &moving(&opposite))?);
         let half = Doubled::new(0.5);
+        let steering = self.steering(&kinetic)?;
+        if steering.iter().any(|&(state, _)| kind != fd || self.laws.states.is_inertial(StateId(state))) {
+            return Some(None);
+        }
+        let own = self.place(fd, Slot::States);
         let mean: Vec<Doubled> = one.roots().iter().zip(other.roots()).map(|(&x, y)| (x + y) * half).collect();
         let mut sum = Sum::default();
         self.displacements(&faster).iter().zip(&along).for_each(|(&x, &v)| sum.product(&[x, v, half]));
@@ -278,6 +285,12 @@ impl At<'_, '_> {
         if kind == fd {
             inertia.iter().zip(&mean).for_each(|(&x, &a)| sum.product(&[x, a]));
             inertia.iter().zip(&mut weights).for_each(|(x, weight)| *weight = x.high);
+            for &(state, slope) in &steering {
+                let [one, other] = [&one, &other].map(|trace| trace.roots()[own.start + state]);
+                sum.product(&[slope, one, half]);
+                sum.product(&[-slope, other, half]);
+                weights[own.start + state] += 0.5 * slope.high.abs();
+            }
             if rows > 0 {
                 let (n, held) = (v.len(), self.place(fd, Slot::Multipliers));
                 let jacobian = self.with(g, &inputs)?.roots();
@@ -306,6 +319,19 @@ impl At<'_, '_> {
             return Some(None);
         }
         found
+    }
+
+    /// Own states by which rates follow from velocities, with their slopes of a kinetic energy: those of masses are no power.
+    fn steering(&mut self, kinetic: &Slopes) -> Option<Vec<(usize, Doubled)>> {
+        if !self.laws.structure.has_speeds() || self.laws.model.states.is_empty() {
+            return Some(Vec::new());
+        }
+        let weights = self.weights(self.coordinates().len());
+        let symbols = self.symbols();
+        let moved = self.trace(FunctionKind::PositionRates)?.slopes::<f64>(&weights, symbols);
+        let of = |slopes: &Slopes, state: usize| self.slope(slopes, Symbol::State { state: StateId(state) });
+        let states = (0..self.laws.model.states.len()).filter(|&state| of(&moved, state).high != 0.0);
+        Some(states.map(|state| (state, of(kinetic, state))).collect())
     }
 
     /// Whether some motion has no kinetic energy: a pivot of the mass matrix, which is made of the gradients of that energy, is
