@@ -10,6 +10,9 @@ use crate::symbolic::graph::{Graph, Scalar, ScalarNode};
 
 use super::values::Value;
 
+/// Whole powers up to this are products.
+const MOST_FACTORS: f64 = 8.0;
+
 /// A function of the language.
 pub(in crate::mechanics) fn call(g: &mut Graph, function: Function, arguments: &[Value]) -> Value {
     let argument = |k: usize| arguments[k].clone();
@@ -39,7 +42,13 @@ pub(in crate::mechanics) fn call(g: &mut Graph, function: Function, arguments: &
             // Within range: a saturating cast of what the checker has seen to be an integer.
             g.powi(x(), power as i32)
         }
-        Function::Powf => g.call(Call::Powf, &[x(), y()]),
+        Function::Powf => {
+            match g.literal(y()).map(|n| n.value()).filter(|n| n.fract() == 0.0 && n.abs() <= MOST_FACTORS) {
+                // The same for whole numbers, of negative bases too.
+                Some(whole) => g.powi(x(), whole as i32),
+                None => g.call(Call::Powf, &[x(), y()]),
+            }
+        }
         Function::Deg => {
             let degree = g.integer(180);
             let degree = g.reciprocal(degree);
