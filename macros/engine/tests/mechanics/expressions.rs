@@ -34,7 +34,9 @@ fn functions() {
         ("powi(u, 3)", |u, _| u.powi(3)),
         ("powi(u, -2)", |u, _| u.powi(-2)),
         ("powf(2.0 + u, x)", |u, x| (2.0 + u).powf(x)),
-        ("powf(u - 2.0, 3.0) + powf(x - 3.0, -2.0) + powf(u, 1.0)", |u, x| (u - 2.0).powf(3.0) + (x - 3.0).powf(-2.0) + u),
+        ("powf(u - 2.0, 3.0) + powf(x - 3.0, -2.0) + powf(u, 1.0)", |u, x| {
+            (u - 2.0).powf(3.0) + (x - 3.0).powf(-2.0) + u
+        }),
         ("deg(30.0) * u", |u, _| 30.0_f64.to_radians() * u),
         ("dot([u, x, 1.0], [x, 2.0, u])", |u, x| u * x + 2.0 * x + u),
         ("norm([u, x, 1.0])", |u, x| (u * u + x * x + 1.0).sqrt()),

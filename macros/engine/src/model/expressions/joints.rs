@@ -9,7 +9,7 @@ use syn::Expr;
 use crate::model::checker::{Checker, Meaning};
 use crate::model::joint_kinds::JointKind;
 use crate::model::typed::{Class, Typed, Uses};
-use crate::model::types::{BodyRef, ExprNode, FrameQuantity, JointId, Order, Type};
+use crate::model::types::{BodyRef, ExprNode, JointId, Order, Type};
 
 use super::paths::plain_frame;
 use super::{source_text, span};
@@ -50,28 +50,12 @@ impl Checker<'_, '_> {
 
     /// The value of a coordinate.
     pub(super) fn coordinate(&mut self, joint: JointId, index: usize, expr: &Expr) -> Option<Typed> {
-        let kind = self.joint_kind(joint)?;
+        self.joint_kind(joint)?;
         let at = span(expr);
         let uses = Uses::of(Class::Position, source_text(expr), at);
         self.uses_coordinates(joint, at);
-        if !(kind.is_free() && kind.has_quaternion()) {
-            let node = ExprNode::Coordinate { joint, index, order: Order::Position };
-            return Some(Typed::leaf(node, Type::Scalar, at).with(uses));
-        }
-        // With quaternions there are no scalar coordinates: the origin's place is measured in the parent frame.
-        let [parent, child] = self.joint_frames(joint, at)?;
-        let position = |frame| {
-            let node = ExprNode::OfFrame(frame, FrameQuantity::Position);
-            Typed::leaf(node, Type::Vec3, at)
-        };
-        let (to, from) = (position(child.frame), position(parent.frame.clone()));
-        let between = ExprNode::Sub(to.expr.clone(), from.expr.clone());
-        let between = self.build(between, Type::Vec3, at, &[&to, &from])?;
-        let express = ExprNode::Express { frame: parent.frame, vector: between.expr.clone() };
-        let express = self.build(express, Type::Vec3, at, &[&between])?;
-        let node = ExprNode::Component(express.expr.clone(), index);
-        let value = self.build(node, Type::Scalar, at, &[&express])?;
-        Some(value.with(uses))
+        let node = ExprNode::Coordinate { joint, index, order: Order::Position };
+        Some(Typed::leaf(node, Type::Scalar, at).with(uses))
     }
 
     /// `.rate`, `.accel`, `.effort` of a coordinate.
