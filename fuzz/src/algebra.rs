@@ -127,6 +127,11 @@ pub fn least(matrix: &DMatrix<f64>, rhs: &DVector<f64>) -> (DVector<f64>, f64, u
     (x, if rank == 0 { 1.0 } else { smallest / most }, rank)
 }
 
+/// How many rows are independent.
+pub fn rank(matrix: &DMatrix<f64>) -> usize {
+    least(matrix, &DVector::zeros(matrix.nrows())).2
+}
+
 /// The least and the greatest of a matrix' singular values, as many as it has columns.
 pub fn extremes(matrix: DMatrix<f64>) -> (f64, f64) {
     let (turned, _) = orthogonal_columns(matrix);

@@ -20,6 +20,16 @@ fn show(what: &str, tally: &Tally, start: Instant) -> bool {
     for (class, seeds) in &tally.classes {
         println!("  {:5}  {class}  (seeds {:?})", seeds.len(), &seeds[..seeds.len().min(6)]);
     }
+    for (kind, count) in &tally.kinds {
+        println!("  {count:9} numbers: {kind}");
+    }
+    if !tally.silent.is_empty() {
+        println!(
+            "  {:5}  nothing compared  (seeds {:?})",
+            tally.silent.len(),
+            &tally.silent[..tally.silent.len().min(12)]
+        );
+    }
     tally.failures() == 0
 }
 

@@ -72,7 +72,7 @@ impl Mechanism {
     }
 
     /// Puts a joint between two bodies that holds in a configuration, where its own coordinates are `c`.
-    fn close(&mut self, kind: Kind, parent: Frame, body: Option<usize>, point: &Point, c: &[f64]) {
+    pub(super) fn close(&mut self, kind: Kind, parent: Frame, body: Option<usize>, point: &Point, c: &[f64]) {
         let mut joint = Joint { kind, parent, child: Frame { body, steps: Vec::new() }, armature: None };
         let plain = Plain::new(self, point);
         let none = vec![0.0; c.len()];

@@ -3,8 +3,11 @@
 //! `draw` makes random ones, `text` writes them down, `shrink` takes things out of them. The plain recursions read the
 //! same data, and never what the engine made of the text.
 
+pub mod beside;
+pub mod carts;
 pub mod draw;
 pub mod expression;
+pub mod held;
 pub mod limbs;
 pub mod loops;
 pub mod numbers;
@@ -13,6 +16,7 @@ pub mod text;
 pub mod wheels;
 
 pub use expression::{Expr, Vector};
+pub use held::{Coupling, Drive, Held, Load, Term};
 
 /// Rate of a state for each unit of it.
 pub const FLOW: f64 = -0.25;
@@ -36,6 +40,10 @@ pub struct Mechanism {
     pub rods: Vec<Rod>,
     /// `h0`, `h1`, ..: equations of velocities.
     pub held: Vec<Held>,
+    /// `c0`, `c1`, ..: equations of coordinates.
+    pub couplings: Vec<Coupling>,
+    /// Coordinates that follow the time.
+    pub drives: Vec<Drive>,
     /// `w0`, `w1`, ..: velocities in the place of rates, by all of these.
     pub speeds: Vec<Vec<f64>>,
     /// `f0`, `f1`, ..
@@ -48,8 +56,12 @@ pub struct Mechanism {
     pub packs: bool,
     /// Items that are written at the end as they are.
     pub tail: String,
-    /// Whether outputs are written, and looked at.
+    /// Whether outputs of bodies and joints are written, and looked at.
     pub outputs: bool,
+    /// Whether those of wheels and blades are that don't read multipliers.
+    pub contacts: bool,
+    /// Those that do.
+    pub loads: Vec<Load>,
     /// A configuration in which the loops are closed, joint by joint.
     pub closed: Vec<Vec<f64>>,
 }
@@ -151,60 +163,6 @@ pub struct Rod {
     pub between: [Frame; 2],
     /// m
     pub length: Expr,
-}
-
-/// An equation of velocities, or a wheel with its equation of positions.
-#[derive(Clone, Debug)]
-pub enum Held {
-    /// Rolls on the plane of a frame.
-    Ball {
-        /// About its centre.
-        wheel: Frame,
-        /// m
-        radius: Expr,
-        /// Whose plane.
-        on: Frame,
-    },
-    /// A thin disc rolls on the plane of a frame.
-    Disc {
-        /// At its centre.
-        wheel: Frame,
-        /// Its axle.
-        axis: Vector,
-        /// m
-        radius: Expr,
-        /// Whose plane.
-        on: Frame,
-    },
-    /// Holds across its edge in the plane of a frame.
-    Blade {
-        /// Where it is.
-        blade: Frame,
-        /// Its edge.
-        along: Vector,
-        /// Whose plane.
-        on: Frame,
-    },
-    /// `(factor + wave * sin(of)) * rate + .. + drift * sin(t)`
-    Rates {
-        /// What moves.
-        terms: Vec<Term>,
-        /// By time.
-        drift: f64,
-    },
-}
-
-/// A rate with its factor; coordinates by joint and number.
-#[derive(Clone, Debug)]
-pub struct Term {
-    /// Whose rate.
-    pub rate: (usize, usize),
-    /// Its factor where `of` is zero.
-    pub factor: f64,
-    /// How much of that comes with the sine of `of`.
-    pub wave: f64,
-    /// A coordinate that is a number.
-    pub of: (usize, usize),
 }
 
 /// What acts.
@@ -311,7 +269,8 @@ impl Mechanism {
 
     /// Whether anything closes a loop.
     pub fn looped(&self) -> bool {
-        self.joints.len() > self.bodies.len() || !self.rods.is_empty() || !self.held.is_empty()
+        let is_tied = !self.couplings.is_empty() || !self.drives.is_empty();
+        self.joints.len() > self.bodies.len() || !self.rods.is_empty() || !self.held.is_empty() || is_tied
     }
 
     /// Whether a body hangs on a joint, at whatever distance.

@@ -1,6 +1,6 @@
 //! Simpler mechanisms: one thing less, or one thing made plain.
 
-use super::{Expr, Force, Frame, Held, Inertia, Kind, Mechanism, Vector};
+use super::{Expr, Force, Frame, Held, Inertia, Kind, Load, Mechanism, Vector};
 
 fn plain(e: &Expr, to: f64) -> Option<Expr> {
     let text = format!("{to}");
@@ -33,15 +33,62 @@ impl Mechanism {
         for k in (0..self.rods.len()).rev() {
             offer(&|m| {
                 m.rods.remove(k);
+                m.unload(
+                    |load| match load {
+                        Load::Rod(at) => Some((*at, at)),
+                        _ => None,
+                    },
+                    k,
+                );
                 true
             });
         }
         for k in (0..self.held.len()).rev() {
             offer(&|m| {
                 m.held.remove(k);
+                m.unload(
+                    |load| match load {
+                        Load::Force(at) | Load::Row(at, _) => Some((*at, at)),
+                        _ => None,
+                    },
+                    k,
+                );
                 m.speeds.is_empty()
             });
         }
+        for k in (0..self.couplings.len()).rev() {
+            offer(&|m| {
+                m.couplings.remove(k);
+                m.unload(
+                    |load| match load {
+                        Load::Coupling(at) => Some((*at, at)),
+                        _ => None,
+                    },
+                    k,
+                );
+                m.speeds.is_empty()
+            });
+        }
+        for k in (0..self.drives.len()).rev() {
+            offer(&|m| {
+                m.drives.remove(k);
+                m.unload(
+                    |load| match load {
+                        Load::Drive(at) => Some((*at, at)),
+                        _ => None,
+                    },
+                    k,
+                );
+                m.speeds.is_empty()
+            });
+        }
+        for k in (0..self.loads.len()).rev() {
+            offer(&|m| {
+                m.loads.remove(k);
+                true
+            });
+        }
+        offer(&|m| std::mem::take(&mut m.contacts));
         offer(&|m| !std::mem::take(&mut m.speeds).is_empty());
         for k in (0..self.forces.len()).rev() {
             offer(&|m| {
@@ -130,13 +177,7 @@ impl Mechanism {
         for rod in &mut self.rods {
             list.extend(&mut rod.between);
         }
-        for held in &mut self.held {
-            match held {
-                Held::Ball { wheel, on, .. } | Held::Disc { wheel, on, .. } => list.extend([wheel, on]),
-                Held::Blade { blade, on, .. } => list.extend([blade, on]),
-                Held::Rates { .. } => {}
-            }
-        }
+        list.extend(self.held.iter_mut().filter_map(Held::frames_mut).flatten());
         for force in &mut self.forces {
             match force {
                 Force::LineSpring { between, .. } => list.extend(between),
@@ -220,6 +261,18 @@ impl Mechanism {
         }
     }
 
+    /// Takes out the outputs that read what has had a number, and moves the numbers behind it.
+    fn unload(&mut self, number: impl Fn(&mut Load) -> Option<(usize, &mut usize)>, gone: usize) {
+        self.loads.retain_mut(|load| match number(load) {
+            Some((at, _)) if at == gone => false,
+            Some((at, place)) => {
+                *place = at - usize::from(at > gone);
+                true
+            }
+            None => true,
+        });
+    }
+
     /// A parameter becomes its default everywhere.
     fn bind(&mut self, k: usize) -> bool {
         let default = self.params.remove(k);
@@ -250,6 +303,8 @@ impl Mechanism {
         });
         found
             || !self.speeds.is_empty()
+            || self.couplings.iter().any(|coupling| coupling.coordinates().any(|at| at.0 == joint))
+            || self.drives.iter().any(|drive| drive.of.0 == joint)
             || self.held.iter().any(|held| match held {
                 Held::Rates { terms, .. } => terms.iter().any(|term| term.rate.0 == joint || term.of.0 == joint),
                 _ => false,
@@ -262,12 +317,14 @@ impl Mechanism {
     /// Takes a body out on which none hangs, and everything that stands on it.
     fn remove(&mut self, body: usize) -> bool {
         let hangs = |frame: &Frame| frame.body == Some(body);
-        // Equations of velocities and speeds name joints by number.
+        // Equations of coordinates and velocities and speeds name joints by number.
         let is_named = self.held.iter().any(|held| match held {
-            Held::Ball { wheel, on, .. } | Held::Disc { wheel, on, .. } => hangs(wheel) || hangs(on),
-            Held::Blade { blade, on, .. } => hangs(blade) || hangs(on),
             Held::Rates { terms, .. } => terms.iter().any(|term| term.rate.0.max(term.of.0) >= body),
+            _ => held.frames().is_some_and(|frames| frames.into_iter().any(hangs)),
         });
+        let is_named = is_named
+            || self.couplings.iter().any(|coupling| coupling.coordinates().any(|at| at.0 >= body))
+            || self.drives.iter().any(|drive| drive.of.0 >= body);
         if is_named || !self.speeds.is_empty() {
             return false;
         }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::{FLOW, Force, Frame, Held, Inertia, Kind, Mechanism, Step, Term};
+use super::{Coupling, Drive, FLOW, Force, Frame, Held, Inertia, Kind, Load, Mechanism, Step, Term};
 
 impl Frame {
     /// In the language.
@@ -74,6 +74,13 @@ impl Mechanism {
         for (k, held) in self.held.iter().enumerate() {
             writeln!(out, "    constraint h{k}{}", self.held(held))?;
         }
+        for (k, coupling) in self.couplings.iter().enumerate() {
+            writeln!(out, "    constraint c{k} = {};", self.coupling(coupling))?;
+        }
+        for Drive { of, centre, speed, size, pace } in &self.drives {
+            let name = self.coordinate(*of);
+            writeln!(out, "    drive {name} = {centre:?} + {speed:?} * t + {size:?} * sin({pace:?} * t);")?;
+        }
         for (k, factors) in self.speeds.iter().enumerate() {
             let rates = self.rates();
             let terms = factors.iter().zip(rates).map(|(factor, rate)| format!("({factor:?} * {rate})"));
@@ -94,6 +101,27 @@ impl Mechanism {
             for k in 0..self.joints.len() {
                 writeln!(out, "    output reaction{k} = j{k}.reaction;")?;
             }
+        }
+        if self.contacts {
+            for (k, held) in self.held.iter().enumerate() {
+                match held {
+                    Held::Ball { .. } | Held::Disc { .. } => {
+                        writeln!(out, "    output contact{k} = h{k}.contact;\n    output slip{k} = h{k}.slip;")?;
+                    }
+                    Held::Blade { .. } => writeln!(out, "    output slip{k} = h{k}.slip;")?,
+                    Held::Rates { .. } => {}
+                }
+            }
+        }
+        for (k, load) in self.loads.iter().enumerate() {
+            let read = match load {
+                Load::Force(held) => format!("h{held}.force"),
+                Load::Row(held, row) => format!("h{held}{}.multiplier", self.held[*held].rows()[*row]),
+                Load::Rod(rod) => format!("r{rod}.multiplier"),
+                Load::Coupling(coupling) => format!("c{coupling}.multiplier"),
+                Load::Drive(drive) => format!("{}.effort", self.coordinate(self.drives[*drive].of)),
+            };
+            writeln!(out, "    output load{k} = {read};")?;
         }
         out.push_str(&self.tail);
         if self.packs {
@@ -139,6 +167,24 @@ impl Mechanism {
                 format!(" = {}{drift:?} * sin(t);", terms.iter().map(term).collect::<String>())
             }
         }
+    }
+
+    fn coupling(&self, of: &Coupling) -> String {
+        let mut sum = Vec::new();
+        for &(at, factor, wave) in &of.terms {
+            let name = self.coordinate(at);
+            sum.push(format!("{factor:?} * {name}"));
+            if wave != 0.0 {
+                sum.push(format!("{wave:?} * sin({name})"));
+            }
+        }
+        if let Some((one, other, factor)) = of.product {
+            sum.push(format!("{factor:?} * {} * {}", self.coordinate(one), self.coordinate(other)));
+        }
+        if of.drift != 0.0 {
+            sum.push(format!("{:?} * sin(t)", of.drift));
+        }
+        format!("{} + {:?}", sum.join(" + "), of.offset)
     }
 
     fn force(&self, force: &Force) -> String {

@@ -1,9 +1,12 @@
 //! What must hold, whatever the model.
 
+pub mod excuses;
 pub mod loops;
+mod outputs;
 mod speeds;
 pub mod tree;
 
+use std::collections::BTreeMap;
 use std::fmt;
 
 use multibody_engine::contracts::symbol::Symbol;
@@ -31,10 +34,12 @@ pub enum Verdict {
 }
 
 /// What has been looked at.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Compared {
     /// All numbers.
     pub numbers: usize,
+    /// The same by what they are.
+    pub kinds: BTreeMap<String, usize>,
     /// Those of functions that go on from what `Model::at` computes.
     pub at: usize,
     /// Those of lower triangles.
@@ -109,24 +114,33 @@ impl fmt::Display for Verdict {
     }
 }
 
+/// What is compared, without the number of its body.
+fn kind(what: &str) -> String {
+    let words = what.split(' ').filter(|word| !word.contains(|c: char| c.is_ascii_digit()));
+    words.collect::<Vec<&str>>().join(" ")
+}
+
 /// Faults so far, and what was compared.
 pub struct Findings {
     faults: Vec<Fault>,
     compared: Compared,
     /// Whose methods are looked at.
     way: Way,
+    /// Of each output that reads multipliers how often these are known, and how often equations share the load there.
+    loads: BTreeMap<usize, [usize; 2]>,
 }
 
 impl Findings {
     /// Nothing yet.
     pub fn new(programs: &Programs) -> Findings {
         let compared = Compared { packs: programs.has_packs(), ..Compared::default() };
-        Findings { faults: Vec::new(), compared, way: Way::Model }
+        Findings { faults: Vec::new(), compared, way: Way::Model, loads: BTreeMap::new() }
     }
 
     /// Two lists, whose errors count in terms of `size`.
     pub fn compare(&mut self, what: &str, got: &[f64], want: &[f64], size: f64, tolerance: f64) {
         self.compared.numbers += got.len();
+        *self.compared.kinds.entry(kind(what)).or_default() += got.len();
         let what = match self.way {
             Way::Model => what.to_owned(),
             Way::At => {
@@ -162,7 +176,14 @@ impl Findings {
     }
 
     /// What became of it.
-    pub fn verdict(self) -> Verdict {
+    pub fn verdict(mut self) -> Verdict {
+        // How equations that depend on each other everywhere share their load is not to be told.
+        for (load, [known, shared]) in std::mem::take(&mut self.loads) {
+            if known == 0 && shared > 4 {
+                let detail = format!("load{load} is a number at {shared} states, and at none is it determined");
+                self.faults.push(Fault { what: "a shared load".to_owned(), error: f64::INFINITY, detail });
+            }
+        }
         if self.faults.is_empty() { Verdict::Right(self.compared) } else { Verdict::Wrong(self.faults) }
     }
 }
