@@ -165,6 +165,23 @@ fn rates_of_what_positions_hold() {
     assert!(names(&held, &structure.rows).contains(&"blade".to_owned()));
 }
 
+/// A linear coupling stands before what it reads: of two angles of a disc that rolls the one follows from the other, which the height gives.
+#[test]
+fn rates_behind_what_a_coupling_reads() {
+    let disc = model_with(
+        "",
+        "body disc { mass: 1.0, inertia: diag(0.1, 0.1, 0.1) }
+         joint float: Free { parent: ground, child: disc, coordinates: RollPitchYaw }
+         constraint height = float.z - 0.3 * cos(float.roll) * cos(float.pitch);
+         constraint equal = float.pitch + float.roll;
+         constraint ahead = disc.velocity.x - 0.3 * disc.angular_velocity.y;
+         formulation { constraints: Reduced }
+         emit forward_dynamics, energy, inverse_dynamics, mass_matrix;",
+    );
+    // Its own check compares what is derived with what is asked for beside that.
+    assert!(compile(&disc).is_ok_and(|(_, compiled)| compiled.sound));
+}
+
 /// A disc that always lies flat and a blade that always stands on end have no direction, in whatever axes; nor has what is nothing.
 #[test]
 fn nothing_by_nothing() {
