@@ -53,9 +53,7 @@ impl Equations<'_> {
         let (at_rest, unaccelerated) = (self.map(&rest(0).collect::<Vec<_>>()), self.map(&rest(1).collect::<Vec<_>>()));
         let (mut matrix, mut first, mut second) = (Vec::new(), Vec::new(), Vec::new());
         for (rate, acceleration) in equations {
-            // A coupling may read what later steps find.
-            let rounds = 0..=reduction.coupled.len();
-            let rate = rounds.fold(rate, |rate, _| self.g.substitute(&[rate], rates)[0]);
+            let rate = self.g.substitute(&[rate], rates)[0];
             let rate = self.g.substitute(&[rate], &known[0])[0];
             matrix.extend(symbols.iter().map(|symbols| self.g.derivative(rate, &[(symbols[0], Scalar::ONE)])));
             first.push(-self.g.substitute(&[rate], &at_rest)[0]);
