@@ -55,7 +55,7 @@ fn limbs_that_are_alike() {
 
 #[test]
 fn wheels_blades_and_speeds() {
-    passes(&Wheels, 60, 1);
+    passes(&Wheels, 60, 7076);
 }
 
 #[test]

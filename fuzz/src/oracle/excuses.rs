@@ -131,7 +131,15 @@ fn has_dependent_speeds(m: &Mechanism) -> bool {
         let all = DMatrix::from_fn(rows + m.speeds.len(), m.freedoms(), entry);
         taken + m.speeds.len() != m.freedoms() || rank(&all) < m.freedoms()
     };
-    if is_reduced { several.into_iter().all(|of| is_short(of.slope)) } else { is_short(put_in(&several)) }
+    if is_reduced {
+        return several.into_iter().all(|of| is_short(of.slope));
+    }
+    // What is linear by numbers may not be so in the form in which it is derived: then it isn't taken out.
+    let drives = |of: &Equations| -> DMatrix<f64> {
+        let rows = (0..of.sources.len()).filter(|&k| matches!(of.sources[k], Source::Drive(_)));
+        of.slope.select_rows(&rows.collect::<Vec<usize>>())
+    };
+    is_short(put_in(&several)) || is_short(drives(&several[0]))
 }
 
 /// A coordinate that is found may be one whose factor is another coordinate, which is zero as the mechanism stands: no rates are known

@@ -63,6 +63,9 @@ pub(super) fn of(
     findings: &mut Findings,
 ) -> Option<Vec<(Coordinate, f64)>> {
     let list = programs.structure.speeds();
+    if list.is_empty() {
+        return None;
+    }
     let at = |speeds: &[f64]| {
         let values = With { rest, list, speeds, changes: &[] };
         programs.run(FunctionKind::PositionRates, &values).map(DVector::from)
