@@ -248,8 +248,8 @@ fn look(m: &Mechanism, programs: &Programs, point: &Point, findings: &mut Findin
         }
         let v: Vec<f64> = state.iter().map(|&(j, k)| point.v[j][k]).collect();
         let whole = run(FunctionKind::MassMatrix).map(|got| DMatrix::from_row_slice(v.len(), v.len(), &got));
-        // What moves by time is no part of it.
-        let is_driven = !m.drives.is_empty() || m.goes_by_time() && !m.tail.contains("Multipliers");
+        // What moves by time is no part of it, such as what a linear coupling gives, which is put in.
+        let is_driven = m.goes_by_time();
         if let Some(matrix) = whole.as_ref().filter(|_| !is_driven) {
             findings.compare("mass matrix (energy)", &[energy(matrix, &v)], &[kinetic], kinetic, TOLERANCE);
         }
