@@ -400,6 +400,35 @@ fn states_are_anywhere() {
     }
 }
 
+/// The second wheel of an axle is left out whoever steers, by a state or by a drive; and what contradicts it is told.
+#[test]
+fn an_axle_beside_what_varies() {
+    let axle = "body left { mass: 1.0, inertia: diag(0.02, 0.03, 0.02) } body right { mass: 1.0, inertia: diag(0.02, 0.03, 0.02) }
+        joint l: Revolute { parent: sled.at([0.1, 0.4, 0.2]), child: left, axis: Y }
+        joint r: Revolute { parent: sled.at([0.1, -0.3, 0.2]), child: right, axis: Y }
+        let road = ground.rotated(Z, 0.2).rotated(X, 0.0);
+        constraint one: Rolling { wheel: left, axis: Y, radius: 0.2, on: road }
+        constraint other: Rolling { wheel: right, axis: Y, radius: 0.2, on: road }";
+    let sled = "body sled { mass: 2.0, com: [0.1, 0.2, 0.0], inertia: diag(1.0, 1.0, 1.0) }
+        joint plane: Planar { parent: ground, child: sled, axis: Z }";
+    let caster = "sled.express(sled.at(0.9 * X).velocity)";
+    for steered in [
+        format!("state s: rate = 0.3 - s, start: 0.0; constraint nose = cos(s) * {caster}.y - sin(s) * {caster}.x;"),
+        format!("constraint nose = cos(0.3 * t) * {caster}.y - sin(0.3 * t) * {caster}.x;"),
+        "body fork { mass: 1.0, inertia: diag(0.1, 0.1, 0.1) } joint steer: Revolute { parent: sled.at(0.9 * X), child: fork, axis: Z }
+         drive steer = 0.3 * sin(t); constraint nose: Skate { blade: fork, along: X }"
+            .to_owned(),
+    ] {
+        let model = model_with("", &format!("{sled} {axle} {steered}"));
+        let structure = sound(&model);
+        assert_eq!(names(&model, &structure.dropped), ["one.touch", "other.touch", "other.across"], "{steered}");
+        assert!(names(&model, &structure.rows).contains(&"nose.across".to_owned()) || steered.contains("nose ="), "{steered}");
+        let twice = format!("{sled} {axle} {steered} constraint twice = 2.0 * sled.express(sled.at(0.1 * X).velocity).y - 0.2;");
+        let said = analyse(&model_with("", &twice)).expect_err(&twice);
+        assert!(said[0].message.contains("the constraint `twice` contradicts `one.across`"), "{}", said[0].message);
+    }
+}
+
 /// Whom a redundant equation follows from is told, and whom it doesn't is not.
 #[test]
 fn partners_are_named() {

@@ -397,9 +397,14 @@ impl Problem {
 
     /// Whether equations of velocities are the same functions everywhere, and at all times.
     pub(super) fn are_rates_plain(&self) -> bool {
+        (0..self.rates.len()).all(|number| self.is_rate_plain(number))
+    }
+
+    /// Whether one of them is the same function everywhere, and at all times.
+    pub(super) fn is_rate_plain(&self, number: usize) -> bool {
         let varies = |symbol: &usize| Some(*symbol) == self.time || self.states.contains(symbol);
-        let varied = |root: usize| self.tape.symbols(root).iter().any(varies);
-        self.are_rates_analytic() && !self.rates.iter().flat_map(Rate::roots).any(varied)
+        let plain = |root: usize| self.tape.is_analytic(root) && !self.tape.symbols(root).iter().any(varies);
+        self.rates[number].roots().all(plain)
     }
 
     /// Whether one of them reads states of the user's own.

@@ -4,8 +4,9 @@
 //! equations before it, of positions or of velocities, in all these configurations and asks for the same: rows of analytic
 //! functions that depend on each other at random poses, and with other parameters where loops are closed for these, do so everywhere.
 //! Where the functions are in pieces, follow time, drives or states of the user's own, or are what they are for the declared parameters
-//! alone, poses prove nothing. Such a row is refused: rounding would decide which of the rows is kept, and positions are moved by rows of
-//! positions alone.
+//! alone, poses prove nothing, unless the row follows from others of velocities that are plain, drives or none, at open poses too: as that of the
+//! second wheel of an axle does, whoever steers. Such a row is refused: rounding would decide which of the rows is kept, and positions are
+//! moved by rows of positions alone.
 
 use crate::invariant::fault::raise;
 use crate::mechanics::loops::constraints::row_name;
@@ -49,7 +50,7 @@ pub(super) fn keep(model: &Model, problem: &Problem, structure: &mut Structure) 
     let (mut kept, mut names, mut complaints) = (Vec::new(), Vec::new(), Vec::new());
     let points = points(problem, structure);
     let before = structure.clone();
-    let judge = Judge { model, problem, structure: &before, points: &points };
+    let judge = Judge { model, problem, structure: &before, points: &points, is_open: false };
     let proof = judge.is_proof();
     for (number, rate) in problem.rates.iter().enumerate() {
         let name = row_name(model, rate.row.closing, rate.row.index);
@@ -65,9 +66,20 @@ pub(super) fn keep(model: &Model, problem: &Problem, structure: &mut Structure) 
             kept.push(number);
             continue;
         }
-        let robust = || judge.with_other_parameters(&Problem::with(model, OFF), number, &kept);
         let partners = judge.partners(number, &kept);
-        if proof && found.iter().all(|&one| one == Beside::Follows) && robust() {
+        let anywhere = if proof { None } else { judge.anywhere(problem, number, &kept) };
+        let robust = || {
+            let moved = Problem::with(model, OFF);
+            match anywhere {
+                Some(_) => judge.anywhere(&moved, number, &kept) == anywhere,
+                None => judge.with_other_parameters(&moved, number, &kept),
+            }
+        };
+        let follows = match proof {
+            true => found.iter().all(|&one| one == Beside::Follows),
+            false => anywhere == Some(Beside::Follows),
+        };
+        if follows && robust() {
             let from = partners.map_or(String::new(), |partners| format!(" (from {partners})"));
             names.push(format!("`{name}`{from}"));
             structure.dropped.push(rate.row);
@@ -79,7 +91,7 @@ pub(super) fn keep(model: &Model, problem: &Problem, structure: &mut Structure) 
             () if !judge.moves(number) => {
                 (format!("the constraint `{name}` is of velocities, but none that is free has a say in it"), None)
             }
-            () if proof && found.contains(&Beside::Contradicts) => {
+            () if (proof && found.contains(&Beside::Contradicts)) || anywhere == Some(Beside::Contradicts) => {
                 (format!("the constraint `{name}` contradicts {}: their velocities leave none for it", others()), None)
             }
             () => (
@@ -134,6 +146,8 @@ struct Judge<'a> {
     problem: &'a Problem,
     structure: &'a Structure,
     points: &'a [Point],
+    /// Equations of positions hold nothing, and drives neither.
+    is_open: bool,
 }
 
 impl Judge<'_> {
@@ -149,6 +163,23 @@ impl Judge<'_> {
     /// What an equation is beside those of positions and those that are kept, pose by pose.
     fn at_all(&self, problem: &Problem, number: usize, kept: &[usize]) -> Vec<Beside> {
         self.points.iter().map(|point| self.beside(problem, point, number, kept)).collect()
+    }
+
+    /// What a plain equation is beside plain ones at random poses, loops open, if it depends on them at all of these.
+    fn anywhere(&self, problem: &Problem, number: usize, kept: &[usize]) -> Option<Beside> {
+        if !problem.is_rate_plain(number) {
+            return None;
+        }
+        let plain: Vec<usize> = kept.iter().copied().filter(|&k| problem.is_rate_plain(k)).collect();
+        let (mut random, mut values) = (Random(0x0FE4), Values::default());
+        let mut points: Vec<Point> = (0..POSES).map(|_| problem.start(&mut random, 1.0)).collect();
+        points.retain(|point| problem.has_slopes(point, &mut values));
+        let found = Judge { points: &points, is_open: true, ..*self }.at_all(problem, number, &plain);
+        match () {
+            () if found.len() < LEAST || found.contains(&Beside::Independent) => None,
+            () if found.contains(&Beside::Contradicts) => Some(Beside::Contradicts),
+            () => Some(Beside::Follows),
+        }
     }
 
     /// Whether it follows with other parameters too: where loops are closed for these, since the equations may read no parameter that moves
@@ -220,11 +251,12 @@ impl Judge<'_> {
             let mut dense = vec![0.0; problem.columns.len()];
             for &(column, entry) in row {
                 let driven = matches!(self.structure.role(problem.columns[column].coordinate), Role::Driven(_));
-                dense[column] += if driven { 0.0 } else { entry };
+                dense[column] += if driven && !self.is_open { 0.0 } else { entry };
             }
             dense
         };
-        let positions = problem.linearise(&point, &self.of_positions(problem), &mut values);
+        let of_positions = if self.is_open { Vec::new() } else { self.of_positions(problem) };
+        let positions = problem.linearise(&point, &of_positions, &mut values);
         let rates = problem.rates_at(&point, &mut values);
         let mut basis: Vec<Gradient> = Vec::new();
         let before = positions.rows.iter().map(|row| (dense(row), 0.0));
