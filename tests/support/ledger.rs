@@ -5,7 +5,7 @@ use std::fmt;
 
 use multibody_engine::contracts::cost::Cost;
 use multibody_engine::emit::function_name;
-use multibody_engine::model::types::{Model, Packs};
+use multibody_engine::model::types::{Model, Packs, SpeedChoice};
 use multibody_engine::optimize::program::Compiled;
 use multibody_engine::{mechanics, optimize};
 
@@ -250,7 +250,7 @@ pub fn in_speeds() -> Vec<InSpeeds> {
         };
         let chosen =
             multibody_engine::chosen(&model).unwrap_or_else(|_| panic!("{} is refused", model.name)).into_owned();
-        let rates = Model { chooses_speeds: false, ..model };
+        let rates = Model { speed_choice: SpeedChoice::Written, ..model };
         InSpeeds {
             model: rates.name.to_string(),
             in_rates: cost(&rates, "forward_dynamics"),
