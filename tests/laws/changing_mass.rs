@@ -1,9 +1,10 @@
 //! Bodies whose mass follows states: at every moment they are bodies with parameters in the place of the states; and motions
 //! whose course is known.
 
+use multibody::impact::impulse;
 use multibody::nalgebra::SVector;
 use multibody::simba::simd::{SimdValue, WideF64x4};
-use multibody::{DormandPrince, Integrator, Radau, Real, impulse, verify_at};
+use multibody::{DormandPrince, Integrator, Radau, Real, verify_at};
 use multibody_tests::models::tanks::*;
 use multibody_tests::support::compare::{mixed, worse};
 use multibody_tests::support::random::Random;
