@@ -26,13 +26,14 @@ fn quiet(words: &[&str]) -> String {
 fn check_has_a_line_for_each_model() {
     let expected = "pendulum: 1 body, 1 coordinate, 0 equations with multipliers; forward_dynamics, mass_matrix\n\
                     slider: 3 bodies, 1 coordinate, 0 equations with multipliers; forward_dynamics, dead_centres, margins\n  \
+                    left out, since they follow from the other equations: `wrist.z`, `wrist.turn_y`, `wrist.turn_x`\n  \
                     forward dynamics takes 34 add, 62 mul, 2 div, 1 sqrt, 1 sincos, 2 other in closed form, work 193; \
                     53 add, 59 mul, 5 div, 2 sincos with multipliers, work 343\n";
     assert_eq!(quiet(&["check", "pendulum.rs"]), expected);
     // As cargo calls it.
     assert_eq!(quiet(&["multibody", "check", "pendulum.rs"]), expected);
     let one = quiet(&["check", "pendulum.rs", "--model", "slider"]);
-    assert!(one.starts_with("slider") && one.lines().count() == 2, "{one}");
+    assert!(one.starts_with("slider") && one.lines().count() == 3, "{one}");
 }
 
 #[test]
@@ -231,16 +232,18 @@ fn what_is_left_to_the_compiler() {
     let checked = quiet(&["check", "automatic.rs"]);
     let lines: Vec<&str> = checked.lines().collect();
     assert!(lines[0].starts_with("automatic: 3 bodies, 3 coordinates, 2 equations with multipliers; "), "{checked}");
+    let said = "  left out, since they follow from the other equations: `pin.z`, `pin.turn_y`, `pin.turn_x`";
+    assert_eq!(lines[1], said);
     let said = "  `constraints: Auto` is `Multipliers`: forward dynamics takes ";
     assert!(
-        lines[1].starts_with(said) && lines[1].contains(" by Newton's method with all its rounds, work "),
+        lines[2].starts_with(said) && lines[2].contains(" by Newton's method with all its rounds, work "),
         "{checked}"
     );
     let said = "  none of the 2 equations with multipliers is absorbed by coordinates of its limb; 2 are left to pivoted solutions";
-    assert!(lines.len() == 4 && lines[2].starts_with(said), "{checked}");
+    assert!(lines.len() == 5 && lines[3].starts_with(said), "{checked}");
     let said = "`solve (knee, pivot) from pin { sin(shaft + knee - pivot) > 0.0 }` leaves nothing to Newton's method: ";
-    assert!(lines[3].contains(said), "{checked}");
-    assert!(lines[3].ends_with("; `constraints: Auto` would be `Reduced` with that"), "{checked}");
+    assert!(lines[4].contains(said), "{checked}");
+    assert!(lines[4].ends_with("; `constraints: Auto` would be `Reduced` with that"), "{checked}");
     // The work of both, as it is compared.
     for constraints in ["Multipliers", "Reduced"] {
         let row = cells(&output).into_iter().find(|row| row[0].starts_with("Joint") && row[1] == constraints).unwrap();

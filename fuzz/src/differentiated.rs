@@ -70,6 +70,10 @@ pub fn run(plan: &Plan) -> Found {
         let (model, other) = models.remove(drawn.min(models.len() - 1));
         let name = model.name.to_string();
         let Some(of) = Written::new(model, &[]) else { continue };
+        // By coordinates and their rates: states in other velocities can't be moved so.
+        if of.structure.has_speeds() {
+            continue;
+        }
         let Some(differentiated) = Differentiated::new(&of, other) else { continue };
         found.models += 1;
         for _ in 0..plan.states {

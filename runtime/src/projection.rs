@@ -413,7 +413,9 @@ impl<S: System> Motion<S> {
 }
 
 impl<S: Constrained> Motion<S> {
-    /// The place of the equation with the greatest rate in lanes that found no velocities, and that rate.
+    /// The place of the equation with the greatest rate in lanes that found no velocities, and that rate: for an error.
+    #[cold]
+    #[inline(never)]
     fn worst_equation(&self, rates: &S::Residual) -> (usize, f64) {
         let zero = S::Scalar::lit(0.0);
         let size = |rate| Real::select(self.consistent, zero, Real::abs(rate)).greatest();
