@@ -248,7 +248,7 @@ fn what_is_left_to_the_compiler() {
     for constraints in ["Multipliers", "Reduced"] {
         let row = cells(&output).into_iter().find(|row| row[0].starts_with("Joint") && row[1] == constraints).unwrap();
         assert!(
-            lines[1].split([';', ',']).any(|part| part.trim() == format!("work {}", row[11])),
+            lines[2].split([';', ',']).any(|part| part.trim() == format!("work {}", row[11])),
             "{checked} {output}"
         );
     }
