@@ -286,6 +286,8 @@ pub struct Graph {
     reads: [Vec<u128>; 3],
     /// Nodes that read these are not looked up.
     pub(super) shunned: u128,
+    /// Whether something was divided by zero: what that is multiplied by zero with would be zero, and its slopes nothing.
+    pub(super) has_pole: bool,
     /// Large numbers whose square roots are literals.
     pub(super) radicands: Vec<u128>,
     /// Sine and cosine of literal angles that are no exact numbers, but whose points are; see [`Graph::literal_sin_cos`].
@@ -321,6 +323,7 @@ impl Graph {
             places: Default::default(),
             reads: Default::default(),
             shunned: 0,
+            has_pole: false,
             radicands: Vec::new(),
             exact_points: HashMap::new(),
             names: PlaceMap::default(),

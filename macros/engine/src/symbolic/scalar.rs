@@ -261,10 +261,16 @@ impl Graph {
         self.mul(a, r)
     }
 
+    /// Whether anything was divided by zero, or is another pole of a function: no result can be trusted then.
+    pub fn has_pole(&self) -> bool {
+        self.has_pole
+    }
+
     /// 1 / x. Of zero it stays a node, infinite when evaluated.
     pub fn reciprocal(&mut self, x: Scalar) -> Scalar {
         let node = x.positive();
         let print = self.print(node);
+        self.has_pole |= print.is_zero();
         let inverse = if print.is_zero() { Print::opaque(0xD1, &[print]) } else { print.inverse() };
         if let Some(found) = self.find(inverse) {
             return found.flip_if(x.is_negative());
@@ -379,6 +385,9 @@ impl Graph {
             (Call::Select, [_, a, b]) if a == b => return *a,
             _ => {}
         }
+        if self.is_pole(call, &arguments) {
+            return self.reciprocal(Scalar::ZERO);
+        }
         if let Some(folded) = self.fold_call(call, &arguments) {
             return folded.flip_if(sign);
         }
@@ -388,6 +397,17 @@ impl Graph {
             None => self.insert_scalar(ScalarNode::Call(call, arguments.into()), print),
         };
         found.flip_if(sign)
+    }
+
+    /// Whether a function is infinite for these arguments: a tangent of a right angle, a logarithm of zero, or a power of zero
+    /// that isn't known to be positive.
+    fn is_pole(&mut self, call: Call, arguments: &[Scalar]) -> bool {
+        match (call, arguments) {
+            (Call::Tan, &[x]) => self.literal(x).is_some_and(|angle| elementary::sin_cos(angle).1.is_zero()),
+            (Call::Ln, &[x]) => x == Scalar::ZERO,
+            (Call::Powf, &[x, power]) => x == Scalar::ZERO && self.literal(power).is_none_or(|n| n.is_negative()),
+            _ => false,
+        }
     }
 
     /// What tells a function's value: nothing of how its arguments' nodes came about, so that equal values have equal prints in all

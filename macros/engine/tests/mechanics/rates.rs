@@ -281,6 +281,38 @@ fn nothing_by_nothing() {
     assert!(analyse(&model).is_ok());
 }
 
+/// What no item shows by itself: the divisor is zero once couplings, drives and states stand in it, and its slopes would be nothing.
+#[test]
+fn nothing_by_nothing_behind_couplings_and_drives() {
+    let slides = "body a { mass: 1.0, inertia: diag(1, 1, 1) } body b { mass: 2.0, inertia: diag(1, 1, 1) }
+        body c { mass: 2.0, inertia: diag(1, 1, 1) }
+        joint x: Prismatic { parent: ground, child: a, axis: [1, 2, 2] } joint y: Prismatic { parent: ground, child: b, axis: X }
+        joint z: Prismatic { parent: ground, child: c, axis: Y }";
+    let refused = |items: &str| match compile(&model_with("", &format!("{slides} {items}"))) {
+        Err(Trouble::Complaints(list)) => list[0].message.clone(),
+        Err(_) => "another trouble".to_owned(),
+        Ok(_) => "none".to_owned(),
+    };
+    for items in [
+        "constraint tie = x - y; constraint roll = z.rate - 0.5 * x.rate * (x - y) / ((x - y) * (2.0 + sin(t)));",
+        "constraint tie = x - y - 0.3 * t; constraint roll = z.rate - 0.5 * x.rate * (x - y - 0.3 * t) / ((x - y - 0.3 * t) * (2.0 + z));",
+        "state s: rate = 0.1, start: 0.2; constraint tie = x - y; constraint roll = z.rate - x.rate * (x - y) / ((x - y) * (1.0 + s));",
+        "drive y = 0.5 * PI; constraint roll = z.rate - x.rate * tan(y) * cos(y);",
+        "drive y = 0.2; param n = -1.0; constraint roll = z.rate - x.rate * (y - 0.2) * powf(y - 0.2, n);",
+        "drive y = 0.5 * PI; output o = tan(y);",
+        "drive y = 0.2 * t; state s: rate = 0.1, start: 0.2; output o = select(x > 0.0, (y - 0.2 * t) / ((y - 0.2 * t) * (1.0 + s)), 2.0);",
+    ] {
+        for constraints in ["Reduced", "Multipliers"] {
+            let told = refused(&format!("{items} formulation {{ constraints: {constraints} }}"));
+            assert!(
+                told.starts_with("its equations divide by what is zero") || told.contains("divides by what is zero"),
+                "{items}: {told}"
+            );
+        }
+    }
+    assert_eq!(refused("drive y = 0.5 * t; constraint roll = z.rate - x.rate * tan(y) * cos(y);"), "none");
+}
+
 /// What meets where the mechanism is drawn does not have to stay together, where equations are of velocities alone.
 #[test]
 fn points_that_meet_at_the_start() {

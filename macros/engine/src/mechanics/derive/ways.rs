@@ -14,6 +14,7 @@ use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::constraints;
 use crate::mechanics::loops::reduction::Reduction;
 use crate::mechanics::scene::{Choices, Method, Scene};
+use crate::mechanics::translate::division;
 use crate::mechanics::translate::symbols::Symbols;
 use crate::model::site::Sited;
 use crate::model::types::JointId;
@@ -221,6 +222,9 @@ impl<'m> Deriving<'m> {
         self.decided = equations.decided;
         self.pivoted.extend(self.decided.pivoted.take());
         let results = results?;
+        if self.graph.has_pole() {
+            return Err(vec![division::at_a_pole(self.model)]);
+        }
         self.check_slopes(&results.list)?;
         // What a way has left unreplaced has no place in the generated structs.
         if unfinished(&self.graph, &results.list) {

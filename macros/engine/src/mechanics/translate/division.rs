@@ -105,6 +105,21 @@ impl Pole<'_> {
     }
 }
 
+/// What is infinite once couplings, drives and what follows stand in the places of coordinates: nothing with it in it has a value, and a
+/// product with zero, or a slope, would be zero on the graph.
+pub(in crate::mechanics) fn at_a_pole(model: &Model) -> Complaint {
+    Complaint {
+        at: model.site(),
+        message:
+            "its equations divide by what is zero wherever the mechanism stands, or take the tangent of a right angle"
+                .to_owned(),
+        help: Some(
+            "look for a quotient, a power, a logarithm or a tangent of what couplings, drives or loops keep as it is"
+                .to_owned(),
+        ),
+    }
+}
+
 /// Several quotients of one item, such as those of a wheel, stand at one token.
 pub(in crate::mechanics) fn told(complaints: impl Iterator<Item = Complaint>) -> Vec<Complaint> {
     let mut told = HashSet::new();
