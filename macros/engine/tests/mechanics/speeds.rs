@@ -136,6 +136,28 @@ fn couplings_beside_wheels() {
     }
 }
 
+/// Couplings that lead to each other, and to what an iteration finds, in any order.
+#[test]
+fn couplings_that_lead_on() {
+    let chain = "body a { mass: 1.3, com: [0.31, 0.07, 0.02], inertia: diag(0.1, 0.2, 0.25) }
+        body b { mass: 0.6, com: [0.1, 0.2, 0.3], inertia: diag(0.1, 0.2, 0.25) }
+        body c { mass: 0.7, com: [0.1, -0.2, 0.3], inertia: diag(0.2, 0.2, 0.25) }
+        body d { mass: 0.8, com: [0.3, -0.2, 0.3], inertia: diag(0.2, 0.3, 0.25) }
+        joint p: Revolute { parent: ground, child: a, axis: [1, 2, 2] } joint q: Revolute { parent: a, child: b, axis: Y }
+        joint r: Prismatic { parent: ground, child: c, axis: X } joint z: Revolute { parent: c, child: d, axis: [0.1, 0.2, 1] }
+        world { gravity: [0.3, -0.2, -9.7] } emit forward_dynamics, energy, bias, poses;";
+    let links = ["constraint one = q - 0.37 * p - 0.2 * r;", "constraint two = r - 0.3 * z;"];
+    for last in ["constraint three = z - 0.1 * sin(p);", "constraint three = z - 0.2 * r * q;"] {
+        for order in [[0, 1], [1, 0]] {
+            for independent in ["", ", independent: [p]"] {
+                let couplings: String = order.map(|k| links[k]).concat();
+                let items = format!("{chain} {couplings} {last} formulation {{ constraints: Reduced{independent} }}");
+                assert!(compile(&model_with("", &items)).is_ok(), "{couplings} {last} {independent}");
+            }
+        }
+    }
+}
+
 /// Speeds that are nothing in whole regions are told by name; what vanishes in single poses is the user's.
 #[test]
 fn speeds_in_pieces() {

@@ -104,10 +104,9 @@ impl Equations<'_> {
         for step in &structure.steps {
             let definitions = self.step(step, newton, &mut reduction)?;
             if matches!(step.means, Means::Linear(_)) {
-                let pairs: Vec<(Scalar, Scalar)> =
-                    definitions.iter().map(|d| (self.coordinate_symbols(d.coordinate)[0], d.position)).collect();
-                let coupled = self.map(&pairs);
-                reduction.coupled.extend(coupled);
+                for definition in &definitions {
+                    self.couple(definition, &mut reduction.coupled);
+                }
             }
             // What one iteration finds does not read each other; what a closed form finds may read what it has found before.
             let at_once = if matches!(step.means, Means::Newton { .. }) { definitions.len() } else { 1 };
@@ -120,6 +119,18 @@ impl Equations<'_> {
             self.follow_speeds(&mut reduction, &rates);
         }
         Ok(reduction)
+    }
+
+    /// Adds what a linear coupling gives. A coupling may read what another one gives: in the map it reads that no more.
+    fn couple(&mut self, definition: &Definition, coupled: &mut Map) {
+        let position = self.g.substitute(&[definition.position], coupled)[0];
+        let own = self.map(&[(self.coordinate_symbols(definition.coordinate)[0], position)]);
+        let mut known: Vec<(SymbolId, Scalar)> = coupled.iter().map(|(&id, &value)| (id, value)).collect();
+        known.sort_unstable_by_key(|entry| entry.0);
+        let values: Vec<Scalar> = known.iter().map(|entry| entry.1).collect();
+        let values = self.g.substitute(&values, &own);
+        coupled.extend(known.into_iter().map(|entry| entry.0).zip(values));
+        coupled.extend(own);
     }
 
     /// Couplings stand first, in terms of coordinates that later steps find: these are put into what was defined before.
