@@ -234,11 +234,13 @@ impl<'m> Analysis<'m> {
                 of_group.iter().map(|one| Step { unknowns: vec![one.unknown], means: Means::Linear(one.constraint) }),
             );
             if reduced {
+                let home = configurations::home(problem, &group.equations, &group.columns, &found);
                 let reduction = reduction::ReductionSearch {
                     model,
                     problem,
                     group: &group,
                     configurations: &found.configurations,
+                    home: home.as_ref(),
                     kept,
                     eliminations: &of_group,
                     driven: &self.driven,

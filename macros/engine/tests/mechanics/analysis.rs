@@ -414,13 +414,15 @@ fn what_stands_alone_is_solved_for() {
         (steps(&m, &structure), structure.guesses())
     };
     let explicit = |text: &str| (vec![text.to_owned()], 0);
+    let newton = |text: &str| (vec![text.to_owned()], 1);
     assert_eq!(of("constraint e = 2.0 * b + sin(a) * cos(c);", ", independent: [a, c]"), explicit("explicit: b"));
     assert_eq!(of("constraint e = two.position.z - a * a;", ", independent: [a, c]"), explicit("explicit: b"));
     // Before what is farther from the ground, unless it is to be independent.
     assert_eq!(of("constraint e = 2.0 * b + sin(a) * cos(c);", ""), explicit("explicit: b"));
-    assert_eq!(of("constraint e = 2.0 * b + sin(a) * cos(c);", ", independent: [b]").0, ["newton 0: c"]);
+    // Of two that do, the one that also does where the motion begins.
+    assert_eq!(of("constraint e = 2.0 * b + sin(a) * cos(c);", ", independent: [b]").0, ["newton 0: a"]);
+    assert_eq!(of("constraint e = a + 0.1 * sin(a) + b * c;", ""), newton("newton 0: a"));
     // Its factor depends on another coordinate, or on a parameter that may be zero, or it stands elsewhere too.
-    let newton = |text: &str| (vec![text.to_owned()], 1);
     assert_eq!(of("constraint e = a * b + cos(c) - 0.5;", ", independent: [a, c]"), newton("newton 0: b"));
     assert_eq!(of("param k = 2.0; constraint e = k * b + cos(c);", ", independent: [a, c]"), newton("newton 0: b"));
     assert_eq!(of("constraint e = b + 0.1 * sin(b) + cos(c);", ", independent: [a, c]"), newton("newton 0: b"));

@@ -169,6 +169,17 @@ pub(super) fn configurations(problem: &Problem, equations: &[usize], columns: &[
     found
 }
 
+/// The declared pose, if it is closed and no less of it is determined than anywhere.
+pub(super) fn home(problem: &Problem, equations: &[usize], columns: &[usize], found: &Found) -> Option<Configuration> {
+    let search = Search::new(problem, equations, columns);
+    let (point, mut values) = (problem.home(), Values::default());
+    let at = search.linearise(&point, &mut values);
+    let closed = search.is_closed(&at.residuals) && search.is_aligned(&at.residuals);
+    let home = closed.then(|| search.configuration(point, &at, true));
+    let rank = found.configurations.iter().filter_map(|configuration| configuration.rank).max();
+    home.filter(|home| home.rank.is_some() && home.rank >= rank)
+}
+
 /// Whether some equations vanish wherever `independent` ones among them do: at configurations found for these alone, from
 /// starts all over. On a branch on which another one counts they would leave it open, since without it that branch has a
 /// dimension more. Nothing is found out where too few starts come to an end.

@@ -32,6 +32,8 @@ pub(super) struct ReductionSearch<'a> {
     pub problem: &'a Problem,
     pub group: &'a CoupledRows,
     pub configurations: &'a [Configuration],
+    /// The declared pose, if it is closed and nothing is lost there.
+    pub home: Option<&'a Configuration>,
     /// Places in the group of equations that are not implied by those before them, formulas included.
     pub kept: &'a [usize],
     pub eliminations: &'a [&'a Elimination],
@@ -75,7 +77,8 @@ pub(super) type Matrix = Vec<Vec<f64>>;
 
 impl ReductionSearch<'_> {
     pub(super) fn steps(&self) -> Result<Vec<Step>, Vec<Complaint>> {
-        let mut matrices: Vec<Matrix> = self.configurations.iter().map(|c| c.jacobian.clone()).collect();
+        let places = self.configurations.iter().chain(self.home);
+        let mut matrices: Vec<Matrix> = places.map(|c| c.jacobian.clone()).collect();
         // Rows that are left for Newton's method, and columns that may be found by it.
         let mut rows: Vec<usize> = self.kept.to_vec();
         let mut columns: Vec<usize> = (0..self.group.columns.len()).collect();
@@ -96,15 +99,19 @@ impl ReductionSearch<'_> {
             columns.retain(|k| !item.unknowns.contains(k));
         }
         // Loops that share coordinates can each be on a branch where something else moves, so one sample need not show
-        // all of them at their best: first each coordinate needs one vote, and every system one regular sample.
-        if let Ok(unknowns) = self.choose(&matrices, &rows, &columns, 1) {
-            let steps = self.order(&items, &matrices, &rows, &unknowns)?;
-            if self.regular(&steps, &matrices) {
-                return Ok(steps);
+        // all of them at their best: first each coordinate needs one vote, and every system one regular sample. Where the
+        // declared pose is closed motions begin there as a rule, so it has a veto if it leaves enough.
+        let (matrices, home) = matrices.split_at(self.configurations.len());
+        for veto in [home, &[]].into_iter().skip(usize::from(home.is_empty())) {
+            let Ok(unknowns) = self.choose(matrices, veto, &rows, &columns, 1) else { continue };
+            match self.order(&items, matrices, &rows, &unknowns) {
+                Ok(steps) if self.regular(&steps, matrices) => return Ok(steps),
+                Err(complaints) if veto.is_empty() => return Err(complaints),
+                _ => {}
             }
         }
-        let unknowns = self.choose(&matrices, &rows, &columns, matrices.len() / 2 + 1)?;
-        self.order(&items, &matrices, &rows, &unknowns)
+        let unknowns = self.choose(matrices, &[], &rows, &columns, matrices.len() / 2 + 1)?;
+        self.order(&items, matrices, &rows, &unknowns)
     }
 
     /// Whether each system is well determined at some sample.
@@ -246,10 +253,11 @@ impl ReductionSearch<'_> {
         }
     }
 
-    /// Dependent coordinates for the rows that are left, each well determined at `quorum` samples.
+    /// Dependent coordinates for the rows that are left, each well determined at `quorum` samples and wherever there is a veto.
     fn choose(
         &self,
-        matrices: &[Matrix],
+        samples: &[Matrix],
+        veto: &[Matrix],
         rows: &[usize],
         columns: &[usize],
         quorum: usize,
@@ -271,15 +279,16 @@ impl ReductionSearch<'_> {
         }
         candidates
             .sort_by_key(|&k| std::cmp::Reverse((explicit.contains(&k), self.depth(self.coordinate(k).joint), k)));
-        let parts: Vec<HashMap<usize, Vec<f64>>> = matrices
+        let parts: Vec<HashMap<usize, Vec<f64>>> = samples
             .iter()
+            .chain(veto)
             .map(|matrix| {
                 let column = |&k: &usize| (k, rows.iter().map(|&row| matrix[row][k]).collect());
                 candidates.iter().map(column).collect()
             })
             .collect();
         let mut chosen: Vec<usize> = Vec::new();
-        let mut bases = vec![Basis::default(); matrices.len()];
+        let mut bases = vec![Basis::default(); parts.len()];
         for least in WELL {
             for &column in &candidates {
                 if chosen.len() == rows.len() {
@@ -288,13 +297,15 @@ impl ReductionSearch<'_> {
                 if chosen.contains(&column) {
                     continue;
                 }
-                let votes = bases.iter().zip(&parts).filter(|(basis, part)| {
+                let votes = bases.iter().zip(&parts).map(|(basis, part)| {
                     part.get(&column).is_some_and(|vector| {
                         let rest = basis.rest(vector);
                         norm(&rest) > least * norm(vector).max(1e-3)
                     })
                 });
-                if votes.count() >= quorum {
+                let votes: Vec<bool> = votes.collect();
+                let (votes, others) = votes.split_at(samples.len());
+                if votes.iter().filter(|&&vote| vote).count() >= quorum && !others.contains(&false) {
                     for (basis, part) in bases.iter_mut().zip(&parts) {
                         if let Some(vector) = part.get(&column) {
                             basis.grow(vector, WELL[2] * norm(vector).max(1e-3));
