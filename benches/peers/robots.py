@@ -31,8 +31,8 @@ EMITTED = {
     "four_legged": (None, "forward_dynamics, derivatives"),
     "humanoid": ("mass_matrix", "forward_dynamics"),
 }
-# Robots with limbs that are computed four at a time too.
-PACKED = ["four_legged"]
+# What is emitted of robots whose limbs are computed together too, four or two at a time.
+PACKED = {"four_legged": "forward_dynamics, derivatives", "humanoid": "forward_dynamics, mass_matrix"}
 
 
 class Link:
@@ -129,7 +129,7 @@ def module(robot, driven, packed=False):
         items.append(f"joint joint{k}: {kind} {{ parent: {parent}, child: link{k}, axis: {vector(link.axis)} }}")
         if driven:
             items.append(f"force motor{k}: Effort {{ joint: joint{k}, value: torque[{k - robot.floats}] }}")
-    items.append(f"emit {EMITTED[robot.name][driven]};")
+    items.append(f"emit {PACKED[robot.name] if packed else EMITTED[robot.name][driven]};")
     return "\n".join(lines + ["        " + item for item in items] + ["    }", "}"]) + "\n"
 
 

@@ -168,7 +168,7 @@ pub use projection::{
 pub use record::Recorder;
 pub use record::{Column, Columns};
 pub use sampled::{Held, Sampled, sampled};
-pub use scalar::{Four, Packed, Real, all, any};
+pub use scalar::{Four, Pack, Packed, Real, Two, all, any};
 pub use second_order::SecondOrder;
 #[cfg(feature = "serde")]
 pub use serde;

@@ -36,7 +36,7 @@ mod wide;
 use nalgebra::{RealField, SimdRealField};
 use simba::simd::SimdBool;
 
-pub use packs::{Four, Packed};
+pub use packs::{Four, Pack, Packed, Two};
 
 /// A real number, several of them in lanes, or a dual number.
 ///
@@ -55,8 +55,10 @@ pub use packs::{Four, Packed};
 pub trait Real: SimdRealField<Element: RealField + Copy> + Copy {
     /// The result of a comparison: `bool`, or one boolean for each lane. Masks combine with `&`, `|` and `!`.
     type Mask: SimdBool;
-    /// Four of this scalar, see [`Packed`]: a vector of the processor, or [`Four<Self>`](Four) for any scalar that knows no better.
-    type Four: Packed<Self>;
+    /// Two of this scalar, see [`Packed`]: a vector of the processor, or [`Two<Self>`](Two) for any scalar that knows no better.
+    type Two: Packed<Self, 2>;
+    /// Four of this scalar: a vector of the processor, or [`Four<Self>`](Four).
+    type Four: Packed<Self, 4>;
 
     /// A literal, rounded to this scalar's precision and repeated in every lane.
     fn lit(value: f64) -> Self;
@@ -146,6 +148,16 @@ pub trait Real: SimdRealField<Element: RealField + Copy> + Copy {
         self * factor + addend
     }
 
+    /// A pack of two.
+    #[inline(always)]
+    fn two(members: [Self; 2]) -> Self::Two {
+        Packed::of(members)
+    }
+    /// A pack of twice the same.
+    #[inline(always)]
+    fn two_of(self) -> Self::Two {
+        Packed::of([self; 2])
+    }
     /// A pack of four.
     #[inline(always)]
     fn four(members: [Self; 4]) -> Self::Four {
@@ -158,20 +170,20 @@ pub trait Real: SimdRealField<Element: RealField + Copy> + Copy {
     }
     /// What is in a pack.
     #[inline(always)]
-    fn members(pack: Self::Four) -> [Self; 4] {
-        Packed::members(pack)
+    fn members<const N: usize>(pack: impl Packed<Self, N>) -> [Self; N] {
+        pack.members()
     }
     /// The square root of each member.
     #[inline(always)]
-    fn roots(pack: Self::Four) -> Self::Four {
-        Packed::roots(pack)
+    fn roots<const N: usize, P: Packed<Self, N>>(pack: P) -> P {
+        pack.roots()
     }
     /// [`Real::mul_add`] of each member.
     #[inline(always)]
-    fn mul_adds(pack: Self::Four, factors: Self::Four, addends: Self::Four) -> Self::Four {
-        Packed::mul_add(pack, factors, addends)
+    fn mul_adds<const N: usize, P: Packed<Self, N>>(pack: P, factors: P, addends: P) -> P {
+        pack.mul_add(factors, addends)
     }
-    /// Sines and cosines of four angles in radians, by [`Real::sin_cos_all`].
+    /// Sines and cosines of each member in radians, by [`Real::sin_cos_all`].
     ///
     /// ```
     /// use multibody::Real;
@@ -181,9 +193,9 @@ pub trait Real: SimdRealField<Element: RealField + Copy> + Copy {
     /// assert_eq!(f64::members(cosines)[2], 1.0);
     /// ```
     #[inline(always)]
-    fn sines(angles: Self::Four) -> (Self::Four, Self::Four) {
-        let [a, b, c, d] = Self::sin_cos_all(Packed::members(angles));
-        (Packed::of([a.0, b.0, c.0, d.0]), Packed::of([a.1, b.1, c.1, d.1]))
+    fn sines<const N: usize, P: Packed<Self, N>>(angles: P) -> (P, P) {
+        let all = Self::sin_cos_all(angles.members());
+        (P::of(all.map(|one| one.0)), P::of(all.map(|one| one.1)))
     }
 
     /// Sine of an angle in radians.

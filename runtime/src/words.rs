@@ -131,7 +131,7 @@ pub mod item {
         /// Rounds of Newton's method where it closes loops: 6, or what is written here. Each doubles the digits of the guess. What is
         /// found alone takes 3, or as many as reach the same order, which triple them.
         pub rounds: Scalar,
-        /// Whether limbs that are alike are computed four at a time: `Off` or `Four`.
+        /// Whether limbs that are alike are computed together: `Off`, or `Four` at a time at most.
         pub packs: super::packs::Four,
         /// Velocity coordinates: `Rates` of coordinates, or `Auto`, by the counts of several choices.
         pub speeds: super::speeds::Auto,
@@ -440,7 +440,7 @@ pub mod packs {
     /// One after the other.
     pub struct Off;
 
-    /// Four at a time, where that is worth it.
+    /// Four at a time, and two where that is what is left, if that is worth it.
     pub struct Four;
 }
 

@@ -61,13 +61,13 @@ impl<T: Real> Machine<'_, T> {
             }
             Statement::SinCos(sines) => self.sines(sines),
             Statement::Called { .. } => unreachable!("no model here calls functions of Rust"),
-            Statement::Pack { local, value } => self.locals[local.0] = self.members(value),
-            Statement::PackSines(sine) => {
+            Statement::Pack { local, value, .. } => self.locals[local.0] = self.members(value),
+            Statement::PackSines(_, sine) => {
                 let points = Real::sin_cos_all(self.members(&sine.angle));
                 self.locals[sine.sin.0] = points.map(|point| point.0);
                 self.locals[sine.cos.0] = points.map(|point| point.1);
             }
-            Statement::Members { pack, members } => {
+            Statement::Members { pack, members, .. } => {
                 for (local, value) in members.iter().zip(self.members(pack)) {
                     local.iter().for_each(|&local| self.set(local, value));
                 }

@@ -51,6 +51,14 @@ macro_rules! spider {
     };
 }
 
+mod plain_two {
+    use super::multibody;
+    spider!(two, Off, 2);
+}
+mod packed_two {
+    use super::multibody;
+    spider!(two, Four, 2);
+}
 mod plain {
     use super::multibody;
     spider!(four, Off, 4);
@@ -135,11 +143,12 @@ fn near(a: &[f64], b: &[f64], tolerance: f64) {
 
 #[test]
 fn packs_give_what_limbs_give() {
-    let mut differs = [false; 2];
+    let mut differs = [false; 3];
     for seed in 0..200 {
+        let two = [results!(plain_two::two, f64, 2, seed, |x| x), results!(packed_two::two, f64, 2, seed, |x| x)];
         let four = [results!(plain::four, f64, 4, seed, |x| x), results!(packed::four, f64, 4, seed, |x| x)];
         let six = [results!(plain_six::six, f64, 6, seed, |x| x), results!(packed_six::six, f64, 6, seed, |x| x)];
-        for ([plain, packed], differs) in [four, six].into_iter().zip(&mut differs) {
+        for ([plain, packed], differs) in [two, four, six].into_iter().zip(&mut differs) {
             near(&plain, &packed, 1e-11);
             *differs |= plain != packed;
         }
@@ -152,6 +161,7 @@ fn packs_give_what_limbs_give() {
 fn single_precision_is_as_near() {
     let single = |x: f32| f64::from(x);
     for seed in 0..50 {
+        near(&results!(packed_two::two, f64, 2, seed, |x| x), &results!(packed_two::two, f32, 2, seed, single), 2e-3);
         near(&results!(packed::four, f64, 4, seed, |x| x), &results!(packed::four, f32, 4, seed, single), 2e-3);
     }
 }
@@ -161,37 +171,56 @@ fn single_precision_is_as_near() {
 fn a_pack_is_its_members_to_the_bit() {
     let lane = |x: WideF64x4| x.extract(2);
     for seed in 0..100 {
-        let vectors = results!(packed::four, f64, 4, seed, |x| x);
-        let arrays = results!(packed::four, WideF64x4, 4, seed, lane);
-        for (number, (a, b)) in vectors.iter().zip(&arrays).enumerate() {
+        let vectors = [
+            results!(packed_two::two, f64, 2, seed, |x| x),
+            results!(packed::four, f64, 4, seed, |x| x),
+            results!(packed_six::six, f64, 6, seed, |x| x),
+        ];
+        let arrays = [
+            results!(packed_two::two, WideF64x4, 2, seed, lane),
+            results!(packed::four, WideF64x4, 4, seed, lane),
+            results!(packed_six::six, WideF64x4, 6, seed, lane),
+        ];
+        for (number, (a, b)) in vectors.iter().flatten().zip(arrays.iter().flatten()).enumerate() {
             assert_eq!(a.to_bits(), b.to_bits(), "{number}: {a:e}, {b:e}");
         }
     }
 }
 
-/// Bits of single operations, zeros with their signs and what is no number among them.
+/// Bits of single operations of a float, of vectors and of arrays, zeros with their signs and what is no number among them.
+macro_rules! operations {
+    ($float:ident, $count:literal, $vector:ident, $array:ident) => {{
+        let values =
+            [0.0, -0.0, 1.5, -2.25, 1e-310, 3e200, f64::INFINITY, f64::NEG_INFINITY, f64::NAN, 0.1, -1e-200, 7.0];
+        let same = |a: [$float; $count], b: [$float; $count], scalar: &dyn Fn(usize) -> $float| {
+            for (k, (a, b)) in a.into_iter().zip(b).enumerate() {
+                let is_same = |b: $float| a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan());
+                assert!(is_same(b) && is_same(scalar(k)), "{a:e}, {b:e}, {:e}", scalar(k));
+            }
+        };
+        for first in 0..values.len() {
+            for second in 0..values.len() {
+                let at = |k: usize| values[k % values.len()] as $float;
+                let a: [$float; $count] = std::array::from_fn(|k| at(first + k));
+                let b: [$float; $count] = std::array::from_fn(|k| at(second + 5 * k));
+                let (v, w, x, y) = ($float::$vector(a), $float::$vector(b), $array::of(a), $array::of(b));
+                same($float::members(v + w), (x + y).members(), &|k| a[k] + b[k]);
+                same($float::members(v - w), (x - y).members(), &|k| a[k] - b[k]);
+                same($float::members(v * w), (x * y).members(), &|k| a[k] * b[k]);
+                same($float::members(v / w), (x / y).members(), &|k| a[k] / b[k]);
+                same($float::members(-v), (-x).members(), &|k| -a[k]);
+                same($float::members($float::roots(v)), x.roots().members(), &|k| a[k].sqrt());
+            }
+        }
+    }};
+}
+
 #[test]
 fn operations_of_vectors_are_those_of_scalars() {
-    use multibody::{Four, Packed};
-    let values = [0.0, -0.0, 1.5, -2.25, 1e-310, 3e200, f64::INFINITY, f64::NEG_INFINITY, f64::NAN, 0.1, -1e-200, 7.0];
-    let same = |a: [f64; 4], b: [f64; 4]| {
-        for (a, b) in a.into_iter().zip(b) {
-            assert!(a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan()), "{a:e}, {b:e}");
-        }
-    };
-    for first in 0..values.len() {
-        for second in 0..values.len() {
-            let at = |k: usize| values[k % values.len()];
-            let a: [f64; 4] = std::array::from_fn(|k| at(first + k));
-            let b: [f64; 4] = std::array::from_fn(|k| at(second + 5 * k));
-            let (v, w, x, y) = (f64::four(a), f64::four(b), Four::of(a), Four::of(b));
-            same(f64::members(v + w), (x + y).members());
-            same(f64::members(v - w), (x - y).members());
-            same(f64::members(v * w), (x * y).members());
-            same(f64::members(v / w), (x / y).members());
-            same(f64::members(-v), (-x).members());
-            same(f64::members(f64::roots(v)), x.roots().members());
-        }
-    }
-    assert_eq!(f64::members(f64::four_of(2.5)), [2.5; 4]);
+    use multibody::{Four, Packed, Two};
+    operations!(f64, 2, two, Two);
+    operations!(f64, 4, four, Four);
+    operations!(f32, 2, two, Two);
+    operations!(f32, 4, four, Four);
+    assert_eq!((f64::members(f64::two_of(2.5)), f64::members(f64::four_of(2.5))), ([2.5; 2], [2.5; 4]));
 }

@@ -1,4 +1,4 @@
-//! A platform on six legs, whose legs are computed four at a time, against the same legs one after the other: leg forces and
+//! A platform on six legs, whose legs are computed four and two at a time, against the same legs one after the other: leg forces and
 //! accelerations, at typed places of joints, in poses near and far, in every kind of scalar.
 
 use multibody::nalgebra::Vector3;

@@ -84,7 +84,7 @@ fn written() -> String {
         }
     }
     text += "\n## Limbs in packs\n\n\
-             With `formulation { packs: Four }`: operations on packs of four, and on scalars beside them, sines counted as one with\n\
+             With `formulation { packs: Four }`: operations on packs of four or two, and on scalars beside them, sines counted as one with\n\
              their cosines. Functions that no packs pay for are left out.\n\n\
              | model | function | without packs | sum | on packs | on scalars |\n\
              |---|---|---|---|---|---|\n";

@@ -124,7 +124,7 @@ pub fn entries() -> Vec<Entry> {
     for call in calls("models/rolling.rs") {
         add(models(call), true, "bicycle", &[]);
     }
-    for call in ["models/required.rs", "models/quadruped.rs"].into_iter().flat_map(calls) {
+    for call in ["models/required.rs", "models/quadruped.rs", "models/torso.rs"].into_iter().flat_map(calls) {
         add(models(call), false, "", &[]);
     }
     // The platform in several coordinates: everything literal. Then what Newton's method closes, beside the same with
@@ -224,7 +224,7 @@ pub fn packed() -> Vec<Packed> {
 }
 
 /// Those models.
-const PACKED: [&str; 2] = ["quadruped", "stewart, reduced"];
+const PACKED: [&str; 3] = ["quadruped", "torso", "stewart, reduced"];
 
 /// Forward dynamics of a model in one choice of velocities and in another.
 pub struct InSpeeds {

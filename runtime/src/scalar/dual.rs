@@ -41,6 +41,7 @@ macro_rules! dual {
         $(
             impl<$(const $size: usize),*> Real for $dual {
                 type Mask = bool;
+                type Two = super::Two<Self>;
                 type Four = super::Four<Self>;
 
                 #[inline]

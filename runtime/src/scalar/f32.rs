@@ -6,6 +6,10 @@ use super::float::single;
 impl Real for f32 {
     type Mask = bool;
     #[cfg(feature = "wide")]
+    type Two = super::packs::Vector<wide::f32x4>;
+    #[cfg(not(feature = "wide"))]
+    type Two = super::Two<f32>;
+    #[cfg(feature = "wide")]
     type Four = simba::simd::WideF32x4;
     #[cfg(not(feature = "wide"))]
     type Four = super::Four<f32>;

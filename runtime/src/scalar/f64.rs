@@ -6,6 +6,10 @@ use super::float::double;
 impl Real for f64 {
     type Mask = bool;
     #[cfg(feature = "wide")]
+    type Two = super::packs::Vector<wide::f64x2>;
+    #[cfg(not(feature = "wide"))]
+    type Two = super::Two<f64>;
+    #[cfg(feature = "wide")]
     type Four = simba::simd::WideF64x4;
     #[cfg(not(feature = "wide"))]
     type Four = super::Four<f64>;

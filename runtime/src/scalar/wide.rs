@@ -37,6 +37,7 @@ macro_rules! lanes {
     ($lanes:ident, $mask:ident, $element:ident, $kernel:ident) => {
         impl Real for $lanes {
             type Mask = $mask;
+            type Two = super::Two<Self>;
             type Four = super::Four<Self>;
 
             #[inline(always)]

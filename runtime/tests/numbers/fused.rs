@@ -2,7 +2,7 @@
 //! same of a number whether it stands alone, in a lane or in a pack.
 
 use multibody::simba::simd::{SimdValue, WideF32x4, WideF32x8, WideF64x4};
-use multibody::{Four, Packed, Real, multibody};
+use multibody::{Four, Packed, Real, Two, multibody};
 
 const FUSED: bool = cfg!(all(
     feature = "fma",
@@ -75,6 +75,12 @@ fn packs_are_numbers() {
         let vector = f64::members(f64::mul_adds(f64::four(a), f64::four(b), f64::four(c)));
         let array = Four::of(a).mul_add(Four::of(b), Four::of(c)).members();
         for k in 0..4 {
+            assert!(same(vector[k], expected[k]) && same(array[k], expected[k]), "{:?}", chunk[k]);
+        }
+        let [a, b, c] = [a, b, c].map(|[x, y, ..]| [x, y]);
+        let vector = f64::members(f64::mul_adds(f64::two(a), f64::two(b), f64::two(c)));
+        let array = Two::of(a).mul_add(Two::of(b), Two::of(c)).members();
+        for k in 0..2 {
             assert!(same(vector[k], expected[k]) && same(array[k], expected[k]), "{:?}", chunk[k]);
         }
     }

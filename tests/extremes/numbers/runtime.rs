@@ -84,7 +84,9 @@ fn scalars<T: Drawn>(n: &Numbers) {
     black_box(Real::mul_add(x, y, T::lit(n.draw())));
     black_box(T::members(T::mul_adds(pack, pack, T::four_of(x))));
     black_box(T::members(T::sines(T::roots(pack)).0));
-    black_box(<T::Four as Packed<T>>::roots(Packed::of(T::members(-pack / pack * pack - pack))).members());
+    let pair = T::two([y, T::lit(n.draw())]) / T::two_of(x);
+    black_box(T::members(T::mul_adds(pair, -pair, T::roots(pair))));
+    black_box(<T::Four as Packed<T, 4>>::roots(Packed::of(T::members(-pack / pack * pack - pack))).members());
     black_box([Real::atan2(x, y), Real::powf(x, y), Real::hypot(x, y), Real::min(x, y), Real::max(x, y)]);
     for power in [0, 1, -1, 7, i32::MAX, i32::MIN, n.draw() as i32] {
         black_box(Real::powi(x, power));

@@ -10,7 +10,8 @@ use crate::export::{COUNT, PACKS, PROGRAM};
 use crate::floating;
 use crate::random::Random;
 use crate::robots::{
-    four_legged_driven, four_legged_packed, humanoid, humanoid_driven, panda, panda_driven, puma560, puma560_driven,
+    four_legged_driven, four_legged_packed, humanoid, humanoid_driven, humanoid_packed, panda, panda_driven, puma560,
+    puma560_driven,
 };
 
 /// Random states of a tree with `joints` coordinates, on a floating base if `floats`; none of any other robot.
@@ -191,6 +192,47 @@ macro_rules! four_legged {
     };
 }
 
+/// Forward dynamics of the humanoid, and its mass matrix.
+macro_rules! humanoid {
+    (forward, $program:expr, $module:ident) => {
+        floating!(
+            c"humanoid",
+            c"forward",
+            $program,
+            $module,
+            32,
+            (|model: &$module::Model<f64>, state, input| model.forward_dynamics(0.0, state, input)),
+            (|(_, state, _): &Point, _, accel: $module::Velocity<f64>| {
+                let base = floating::accel(&state.q.float, &state.v.float, &accel.float);
+                [&base, &flat::<38>(accel)[6..]].concat()
+            })
+        )
+    };
+    (mass, $program:expr, $module:ident) => {{
+        type Point = ($module::Model<f64>, $module::Position<f64>);
+        subject!(
+            c"humanoid",
+            c"mass",
+            $program,
+            1 + 4 * 38,
+            1,
+            Point,
+            |x| {
+                let mut joints = SVector::<f64, 38>::zeros();
+                joints.rows_mut(6, 32).copy_from_slice(&x[7..39]);
+                let mut q = $module::Position::default().displace(&joints.into());
+                q.float = floating::pose(x);
+                ($module::Model::default(), q)
+            },
+            (|(model, q): &Point| model.mass_matrix(q)),
+            (|(_, q): &Point, _, mass| {
+                let pose: &Pose<f64> = &q.float;
+                columns(&[floating::mass(pose, &dynamic::<38, 38>(&mass))])
+            }),
+        )
+    }};
+}
+
 pub const SUBJECTS: &[Subject] = &[
     inverse!(c"puma560", puma560, 6),
     mass!(c"puma560", puma560, 6),
@@ -226,40 +268,8 @@ pub const SUBJECTS: &[Subject] = &[
     four_legged!(forward, PACKS, four_legged_packed),
     four_legged!(derivatives, PROGRAM, four_legged_driven),
     four_legged!(derivatives, PACKS, four_legged_packed),
-    floating!(
-        c"humanoid",
-        c"forward",
-        humanoid_driven,
-        32,
-        (|model: &humanoid_driven::Model<f64>, state, input| model.forward_dynamics(0.0, state, input)),
-        (|(_, state, _): &Point, _, accel: humanoid_driven::Velocity<f64>| {
-            let base = floating::accel(&state.q.float, &state.v.float, &accel.float);
-            [&base, &flat::<38>(accel)[6..]].concat()
-        })
-    ),
-    HUMANOID_MASS,
+    humanoid!(forward, PROGRAM, humanoid_driven),
+    humanoid!(forward, PACKS, humanoid_packed),
+    humanoid!(mass, PROGRAM, humanoid),
+    humanoid!(mass, PACKS, humanoid_packed),
 ];
-
-const HUMANOID_MASS: Subject = {
-    type Point = (humanoid::Model<f64>, humanoid::Position<f64>);
-    subject!(
-        c"humanoid",
-        c"mass",
-        PROGRAM,
-        1 + 4 * 38,
-        1,
-        Point,
-        |x| {
-            let mut joints = SVector::<f64, 38>::zeros();
-            joints.rows_mut(6, 32).copy_from_slice(&x[7..39]);
-            let mut q = humanoid::Position::default().displace(&joints.into());
-            q.float = floating::pose(x);
-            (humanoid::Model::default(), q)
-        },
-        (|(model, q): &Point| model.mass_matrix(q)),
-        (|(_, q): &Point, _, mass| {
-            let pose: &Pose<f64> = &q.float;
-            columns(&[floating::mass(pose, &dynamic::<38, 38>(&mass))])
-        }),
-    )
-};

@@ -230,7 +230,7 @@ fn work(layout: &Layout<'_>, function: &Function) -> Vec<String> {
     let (before, after) = (function.before.words(), function.after.words());
     lines.push(format!("Operations: {after}; as derived, before optimisation: {before}."));
     if let Some([packed, scalar]) = packs::operations(&function.program) {
-        lines.push(format!("Limbs go in packs of four: {packed} operations on packs, {scalar} on scalars."));
+        lines.push(format!("Limbs go in packs: {packed} operations on packs, {scalar} on scalars."));
     }
     lines
 }

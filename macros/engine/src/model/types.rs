@@ -257,7 +257,7 @@ pub enum Packs {
     /// One after the other.
     #[default]
     Off,
-    /// Four at a time.
+    /// Four at a time, or two.
     Four,
 }
 

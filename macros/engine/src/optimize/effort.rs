@@ -8,7 +8,7 @@ use crate::contracts::call::Call;
 use crate::contracts::cost::Cost;
 use crate::symbolic::graph::BlockKind;
 
-use super::program::{Expression, Function, MEMBERS, Statement};
+use super::program::{Expression, Function, Statement};
 
 // Weights are rounded from a fit to the times of compiled forward dynamics of 180 choices of the project's models (f64, level 3,
 // Intel Xeon, November 2026), by least squares of relative errors: 0.12 ns for an addition, since a processor does several
@@ -59,12 +59,12 @@ impl Effort {
         for statement in statements {
             match statement {
                 Statement::Let { value, .. } => self.straight = self.straight.plus(beyond(of_expression(value))),
-                Statement::Pack { value, .. } => {
-                    self.straight = self.straight.plus(repeated(beyond(of_expression(value)), MEMBERS as u32));
+                Statement::Pack { size, value, .. } => {
+                    self.straight = self.straight.plus(repeated(beyond(of_expression(value)), size.members() as u32));
                 }
-                Statement::PackSines(sine) => {
+                Statement::PackSines(size, sine) => {
                     let cost = of_expression(&sine.angle).plus(Cost { sincos: 1, ..Cost::default() });
-                    self.straight = self.straight.plus(repeated(beyond(cost), MEMBERS as u32));
+                    self.straight = self.straight.plus(repeated(beyond(cost), size.members() as u32));
                 }
                 Statement::Members { .. } => {}
                 Statement::SinCos(sines) => {

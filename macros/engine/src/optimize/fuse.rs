@@ -48,7 +48,7 @@ pub fn bounded_fields(program: &Program) -> HashSet<FieldId> {
 
 fn fuse_in(statement: &mut Statement, guarded: &Guarded) {
     match statement {
-        Statement::Let { local, value } | Statement::Pack { local, value } => {
+        Statement::Let { local, value } | Statement::Pack { local, value, .. } => {
             replace(value, guarded.locals.contains(local))
         }
         Statement::Iterate { start, body, next, residual, .. } => {
@@ -111,8 +111,8 @@ impl Guarded {
 fn each_value<'a>(statements: &'a [Statement], visit: &mut dyn FnMut(Local, &'a Expression)) {
     for statement in statements {
         match statement {
-            Statement::Let { local, value } | Statement::Pack { local, value } => visit(*local, value),
-            Statement::Members { pack, members } => {
+            Statement::Let { local, value } | Statement::Pack { local, value, .. } => visit(*local, value),
+            Statement::Members { pack, members, .. } => {
                 members.iter().flatten().for_each(|&member| visit(member, pack));
             }
             Statement::Iterate { unknowns, start, body, next, residual, .. } => {
@@ -122,7 +122,7 @@ fn each_value<'a>(statements: &'a [Statement], visit: &mut dyn FnMut(Local, &'a 
                 visit(residual.0, &residual.1);
                 each_value(body, visit);
             }
-            Statement::SinCos(_) | Statement::PackSines(_) | Statement::Called { .. } | Statement::Solve { .. } => {}
+            Statement::SinCos(_) | Statement::PackSines(..) | Statement::Called { .. } | Statement::Solve { .. } => {}
         }
     }
 }

@@ -46,6 +46,8 @@ use schedule::Form;
 /// Most operations that one function may have before optimisation. A hundred thousand take about seven seconds from the model
 /// to its code in an unoptimised build, and rustc takes twenty more in release, with 600 MB.
 pub const MOST_OPERATIONS: usize = 200_000;
+/// Ways that cost more than this beyond the cheapest are not tried in packs, in hundredths: scalars without vectors run them too.
+const MORE_BEFORE_PACKS: u32 = 2;
 
 /// Why a model can't be compiled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -107,10 +109,10 @@ pub fn compile_with(derivation: &Derivation, plain: Plain<'_>, fused: bool) -> R
     let mut members: Vec<Member<'_>> = derivation.at.iter().map(|&kind| Member::new(derivation, kind)).collect();
     for function in &derivation.functions {
         let mut member = members.iter_mut().find(|member| member.derived.kind == function.kind);
-        let mut best: Option<(u32, Chosen)> = None;
+        let mut ways: Vec<Chosen> = Vec::new();
         let mut tried: Vec<Rival> = Vec::new();
+        let is_plain = plain.functions.contains(&function.kind);
         for (candidate, (method, results)) in function.candidates.iter().enumerate() {
-            let is_plain = plain.functions.contains(&function.kind);
             let mut import = |list: &[Scalar]| {
                 let Imported { dag, before, size } = importer.import(list);
                 if size > MOST_OPERATIONS {
@@ -129,18 +131,20 @@ pub fn compile_with(derivation: &Derivation, plain: Plain<'_>, fused: bool) -> R
                 Some(Member { ways, before, .. }) if !apart => (ways[candidate].clone(), before[candidate]),
                 _ => import(if apart { &results.apart } else { &results.list })?,
             };
-            let cost = dag.cost().0;
-            tried.push(Rival { method, cost });
-            let weight = match &derivation.limbs {
-                Some(limbs) if !is_plain && !limbs.numbers.is_empty() => packed_weight(&dag, &symbols, limbs),
-                _ => cost.weight(),
-            };
-            if best.as_ref().is_none_or(|(least, _)| weight < *least) {
-                let (kind, parts, rivals) = (function.kind, results.parts.clone(), Vec::new());
-                best = Some((weight, Chosen { kind, parts, method, candidate, before, dag, rivals }));
-            }
+            tried.push(Rival { method, cost: dag.cost().0 });
+            let (kind, parts, rivals) = (function.kind, results.parts.clone(), Vec::new());
+            ways.push(Chosen { kind, parts, method, candidate, before, dag, rivals });
         }
-        chosen.extend(best.map(|(_, mut chosen)| {
+        let least = tried.iter().map(|rival| rival.cost.weight()).min().unwrap_or(0);
+        let is_near = |way: &Chosen| 100 * way.dag.cost().0.weight() <= (100 + MORE_BEFORE_PACKS) * least;
+        let best = match &derivation.limbs {
+            Some(limbs) if !is_plain && ways.len() > 1 => {
+                let is_tried = |way: &Chosen| !limbs.numbers.is_empty() || is_near(way);
+                ways.into_iter().filter(is_tried).min_by_key(|way| packed_weight(&way.dag, &symbols, limbs))
+            }
+            _ => ways.into_iter().min_by_key(|way| way.dag.cost().0.weight()),
+        };
+        chosen.extend(best.map(|mut chosen| {
             tried.remove(chosen.candidate);
             chosen.rivals = tried;
             chosen
@@ -207,8 +211,7 @@ fn with_numbers(derivation: &Derivation) -> (Vec<Symbol>, Vec<String>) {
     (symbols, names)
 }
 
-/// What choices between candidates compare where limbs without coordinates go into packs, which have a way of their own to that: what is
-/// left of them there. Elsewhere a pack for each candidate would take more time than all passes.
+/// What choices between candidates compare where limbs go into packs: what is left of them there.
 fn packed_weight(dag: &Dag, symbols: &[Symbol], limbs: &Limbs) -> u32 {
     let fields::StoredFields { fields, names, .. } = fields::gather(&[dag], symbols);
     let form = Form { limbs: Some(limbs), fused: false, bounded: &[], ordered: false };

@@ -254,7 +254,7 @@ fn duration(statement: &Statement) -> i64 {
         + match statement {
             Statement::Let { .. } | Statement::Pack { .. } => 0,
             Statement::Members { .. } | Statement::Called { .. } => CALL,
-            Statement::SinCos(_) | Statement::PackSines(_) => SINES,
+            Statement::SinCos(_) | Statement::PackSines(..) => SINES,
             Statement::Solve { size, .. } => SOLUTION * *size as i64,
             Statement::Iterate { count, body, .. } => *count as i64 * body.iter().map(duration).max().unwrap_or(0),
         }

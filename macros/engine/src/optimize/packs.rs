@@ -1,4 +1,4 @@
-//! Stage `optimize`, on a program: what limbs do alike is done for four of them at a time.
+//! Stage `optimize`, on a program: what limbs do alike is done for four of them at a time, or for two.
 //!
 //! In: statements in the order in which results need them, with sines one by one, and which coordinates belong to limbs that are
 //! alike. Out: the same with statements on *packs*, each with a member for every limb, and with members taken out where
@@ -19,7 +19,7 @@ mod order;
 mod unify;
 mod worth;
 
-use std::collections::{BTreeSet, HashSet};
+use std::collections::{BTreeSet, HashMap, HashSet};
 
 use crate::invariant::injection::{Break, broken};
 use crate::mechanics::limbs::Limbs;
@@ -27,14 +27,14 @@ use crate::mechanics::limbs::Limbs;
 use likeness::{Likeness, Owner};
 use order::{Pack, Taken};
 
-use super::program::{Expression, Local, MEMBERS, Program, Sine, Statement};
+use super::program::{Expression, Local, MEMBERS, Program, Sine, Size, Statement};
 use unify::{Packed, Unifier};
 
 /// Rounds in which what limbs have in common sums is taken out; each may tell limbs apart that the one before has not.
 const ROUNDS: usize = 3;
 
-/// Fewer limbs are no faster in packs: without `target-cpu` a vector of x86-64 holds two `f64`, so two of four members are filled up for
-/// nothing.
+/// Fewer are no faster in packs of four: without `target-cpu` a vector of x86-64 holds two `f64`, so two of four members are filled up
+/// for nothing.
 const LEAST: usize = 3;
 
 /// The program with packs; as it came where they don't pay.
@@ -46,7 +46,7 @@ pub fn pack(program: Program, limbs: &Limbs) -> Program {
         }
     }
     let likeness = Likeness::new(&parted.statements, limbs);
-    let mut places: Vec<[Option<usize>; MEMBERS]> = proposed(&likeness);
+    let mut places = proposed(&likeness);
     loop {
         let found = packs(&mut parted.clone(), &likeness, &places);
         let kept = worth::kept(&parted, &found);
@@ -55,7 +55,7 @@ pub fn pack(program: Program, limbs: &Limbs) -> Program {
             .iter()
             .enumerate()
             .filter(|(number, _)| kept.contains(number) && Some(*number) != circular)
-            .map(|(_, pack)| pack.statements)
+            .map(|(_, pack)| (pack.size, pack.statements))
             .collect();
         if keep.len() == places.len() {
             break;
@@ -80,12 +80,12 @@ pub fn operations(program: &Program) -> Option<[usize; 2]> {
     for statement in &program.statements {
         let own = match statement {
             Statement::SinCos(sines) => sines.len(),
-            Statement::PackSines(_) => 1,
+            Statement::PackSines(..) => 1,
             _ => 0,
         };
         let count = own + statement.expressions().map(worth::operations).sum::<usize>();
         match statement {
-            Statement::Pack { .. } | Statement::PackSines(_) => packed += count,
+            Statement::Pack { .. } | Statement::PackSines(..) => packed += count,
             _ => scalar += count,
         }
     }
@@ -93,18 +93,29 @@ pub fn operations(program: &Program) -> Option<[usize; 2]> {
     (packed > 0).then_some([packed, scalar + results])
 }
 
-/// Groups of statements, four at a time, each at the place of its limb. The last two of six limbs fill half a pack.
-fn proposed(likeness: &Likeness<'_>) -> Vec<[Option<usize>; MEMBERS]> {
+/// Statements for a pack, each at the place of its limb.
+type Places = (Size, [Option<usize>; MEMBERS]);
+
+/// Groups of statements, four limbs at a time: the last two of six limbs, and limbs that are two, are a pack of two.
+fn proposed(likeness: &Likeness<'_>) -> Vec<Places> {
+    let mut limbs: HashMap<usize, usize> = HashMap::new();
+    for limb in likeness.groups.iter().flat_map(|group| group.keys()) {
+        let count = limbs.entry(limb.set).or_default();
+        *count = (*count).max(limb.number + 1);
+    }
     let mut found = Vec::new();
-    for group in likeness.groups.iter().filter(|group| group.len() >= LEAST) {
+    for group in &likeness.groups {
+        let count = group.keys().next().map_or(0, |limb| limbs[&limb.set]);
         let chunks: BTreeSet<usize> = group.keys().map(|limb| limb.number / MEMBERS).collect();
         for chunk in chunks {
             let mut places = [None; MEMBERS];
             for (limb, &statement) in group.iter().filter(|(limb, _)| limb.number / MEMBERS == chunk) {
                 places[limb.number % MEMBERS] = Some(statement);
             }
-            if places.iter().flatten().count() > 1 {
-                found.push(places);
+            let size = if count - MEMBERS * chunk == 2 { Size::Two } else { Size::Four };
+            let enough = size == Size::Two || group.len() >= LEAST;
+            if enough && places.iter().flatten().count() > 1 {
+                found.push((size, places));
             }
         }
     }
@@ -113,17 +124,17 @@ fn proposed(likeness: &Likeness<'_>) -> Vec<[Option<usize>; MEMBERS]> {
 
 /// These statements as packs, what they read before them; those that are not alike after all are left out. Locals of packs
 /// are added to the program.
-fn packs(program: &mut Program, likeness: &Likeness<'_>, places: &[[Option<usize>; MEMBERS]]) -> Vec<Pack> {
+fn packs(program: &mut Program, likeness: &Likeness<'_>, places: &[Places]) -> Vec<Pack> {
     let mut packed = Packed::new();
     let mut found = Vec::new();
     let mut taken = Taken::new(&program.locals);
-    for &statements in places {
+    for &(size, statements) in places {
         let members: Vec<(usize, &Statement)> = statements
             .iter()
             .enumerate()
             .filter_map(|(place, number)| Some((place, program.statements.get((*number)?)?)))
             .collect();
-        let unifier = Unifier { likeness, packed: &packed };
+        let unifier = Unifier { likeness, packed: &packed, size };
         let expressions = members.iter().filter_map(|&(place, statement)| match statement {
             Statement::Let { value, .. } => Some((place, value)),
             Statement::SinCos(sines) => sines.first().map(|sine| (place, &sine.angle)),
@@ -155,15 +166,15 @@ fn packs(program: &mut Program, likeness: &Likeness<'_>, places: &[[Option<usize
         };
         let locals: Vec<Local> = (0..if is_sine { 2 } else { 1 }).map(&mut local).collect();
         let statement = match locals[..] {
-            [sin, cos] => Statement::PackSines(Sine { sin, cos, angle: value }),
-            _ => Statement::Pack { local: locals[0], value },
+            [sin, cos] => Statement::PackSines(size, Sine { sin, cos, angle: value }),
+            _ => Statement::Pack { size, local: locals[0], value },
         };
         for (place, own) in defined {
             for (&own, &pack) in own.iter().zip(&locals) {
-                packed.insert(own, (pack, place, signs));
+                packed.insert(own, (size, pack, place, signs));
             }
         }
-        found.push(Pack { statements, statement, signs });
+        found.push(Pack { size, statements, statement, signs });
     }
     found
 }

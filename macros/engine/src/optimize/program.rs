@@ -37,12 +37,29 @@ pub enum Expression {
     Product(Vec<Expression>),
     Quotient(Box<Expression>, Box<Expression>),
     Call(Call, Vec<Expression>),
-    /// Inside of packs alone: one scalar for each member, or one for all of them.
+    /// Inside of packs alone: one scalar for each member, or one for all of them. A list has [`MEMBERS`] items always; packs of
+    /// two have the first ones.
     Pack(Vec<Expression>),
 }
 
-/// As many members has a pack.
+/// As many members has a pack at most.
 pub const MEMBERS: usize = 4;
+
+/// How many members a pack has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Size {
+    Two,
+    Four,
+}
+
+impl Size {
+    pub fn members(self) -> usize {
+        match self {
+            Size::Two => 2,
+            Size::Four => MEMBERS,
+        }
+    }
+}
 
 #[derive(Clone, Debug)]
 pub enum Statement {
@@ -54,13 +71,15 @@ pub enum Statement {
     SinCos(Vec<Sine>),
     /// A pack: operations of `value` work on each member, its leaves are packs.
     Pack {
+        size: Size,
         local: Local,
         value: Expression,
     },
     /// Sines and cosines of a pack of angles.
-    PackSines(Sine),
+    PackSines(Size, Sine),
     /// What is in a pack; members that nothing reads have no local.
     Members {
+        size: Size,
         pack: Expression,
         members: [Option<Local>; MEMBERS],
     },
@@ -180,7 +199,7 @@ impl Statement {
             Statement::Let { value, .. } | Statement::Pack { value, .. } | Statement::Members { pack: value, .. } => {
                 Box::new(std::iter::once(value))
             }
-            Statement::PackSines(sine) => Box::new(std::iter::once(&sine.angle)),
+            Statement::PackSines(_, sine) => Box::new(std::iter::once(&sine.angle)),
             Statement::SinCos(sines) => Box::new(sines.iter().map(|sine| &sine.angle)),
             Statement::Called { arguments, .. } => Box::new(arguments.iter()),
             Statement::Solve { matrix, rhs, measures, .. } => Box::new(matrix.iter().chain(rhs).chain(measures)),
@@ -197,7 +216,7 @@ impl Statement {
             Statement::Let { value, .. } | Statement::Pack { value, .. } | Statement::Members { pack: value, .. } => {
                 visit(value);
             }
-            Statement::PackSines(sine) => visit(&mut sine.angle),
+            Statement::PackSines(_, sine) => visit(&mut sine.angle),
             Statement::SinCos(sines) => sines.iter_mut().for_each(|sine| visit(&mut sine.angle)),
             Statement::Called { arguments, .. } => arguments.iter_mut().for_each(visit),
             Statement::Solve { matrix, rhs, measures, .. } => {
@@ -216,7 +235,7 @@ impl Statement {
     pub fn defined(&self) -> Vec<Local> {
         match self {
             Statement::Let { local, .. } | Statement::Pack { local, .. } => vec![*local],
-            Statement::PackSines(sine) => sine.defined().to_vec(),
+            Statement::PackSines(_, sine) => sine.defined().to_vec(),
             Statement::Members { members, .. } => members.iter().copied().flatten().collect(),
             Statement::SinCos(sines) => sines.iter().flat_map(Sine::defined).collect(),
             Statement::Called { value, slopes, .. } => std::iter::once(*value).chain(slopes.iter().copied()).collect(),

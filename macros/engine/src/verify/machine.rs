@@ -74,16 +74,16 @@ impl Machine<'_> {
                     self.set(local, call_f64(call, &arguments));
                 }
             }
-            Statement::Pack { local, value } => {
+            Statement::Pack { local, value, .. } => {
                 let members = self.members(value);
                 self.packs.insert(*local, members);
             }
-            Statement::PackSines(sine) => {
+            Statement::PackSines(_, sine) => {
                 let points = self.members(&sine.angle).map(f64::sin_cos);
                 self.packs.insert(sine.sin, points.map(|point| point.0));
                 self.packs.insert(sine.cos, points.map(|point| point.1));
             }
-            Statement::Members { pack, members } => {
+            Statement::Members { pack, members, .. } => {
                 let values = self.members(pack);
                 for (local, value) in members.iter().zip(values) {
                     local.iter().for_each(|&local| self.set(local, value));

@@ -52,13 +52,13 @@ impl Machine<'_> {
                     self.set(slope, call_f64(Call::ExternalSlope(*function, k), &arguments));
                 }
             }
-            Statement::Pack { local, value } => self.packs[local.0] = Some(self.members(value)),
-            Statement::PackSines(sine) => {
+            Statement::Pack { local, value, .. } => self.packs[local.0] = Some(self.members(value)),
+            Statement::PackSines(_, sine) => {
                 let angles = self.members(&sine.angle);
                 self.packs[sine.sin.0] = Some(angles.map(f64::sin));
                 self.packs[sine.cos.0] = Some(angles.map(f64::cos));
             }
-            Statement::Members { pack, members } => {
+            Statement::Members { pack, members, .. } => {
                 for (local, value) in members.iter().zip(self.members(pack)) {
                     local.iter().for_each(|&local| self.set(local, value));
                 }

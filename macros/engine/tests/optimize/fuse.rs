@@ -3,7 +3,7 @@
 use multibody_engine::contracts::symbol::Symbol;
 use multibody_engine::mechanics;
 use multibody_engine::optimize::fuse::{bounded_fields, fuse};
-use multibody_engine::optimize::program::{Expression, FieldId, Local, Program, Statement};
+use multibody_engine::optimize::program::{Expression, FieldId, Local, Program, Size, Statement};
 use multibody_engine::optimize::{Plain, compile_with};
 use multibody_engine::symbolic::doubled::Doubled;
 
@@ -121,6 +121,7 @@ fn ways_go_through_packs() {
             set(2, difference.clone()),
             set(3, difference.clone()),
             Statement::Pack {
+                size: Size::Four,
                 local: Local(4),
                 value: Expression::Pack(vec![local(2), local(2), number(1.0), local(0)]),
             },

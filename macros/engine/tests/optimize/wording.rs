@@ -194,7 +194,7 @@ impl Reader<'_> {
                 Statement::Solve { .. }
                 | Statement::Called { .. }
                 | Statement::Pack { .. }
-                | Statement::PackSines(_)
+                | Statement::PackSines(..)
                 | Statement::Members { .. } => self.results(program, statement),
                 Statement::Iterate { body, .. } => {
                     self.results(program, statement);

@@ -290,7 +290,7 @@ fn statements(list: &mut [Statement], visit: &mut dyn FnMut(&mut Expression)) {
     for statement in list {
         match statement {
             Statement::Let { value, .. } | Statement::Pack { value, .. } => expression(value, visit),
-            Statement::PackSines(sine) => expression(&mut sine.angle, visit),
+            Statement::PackSines(_, sine) => expression(&mut sine.angle, visit),
             Statement::Members { pack, .. } => expression(pack, visit),
             Statement::SinCos(sines) => sines.iter_mut().for_each(|sine| expression(&mut sine.angle, visit)),
             Statement::Called { arguments, .. } => arguments.iter_mut().for_each(|e| expression(e, visit)),

@@ -9,11 +9,11 @@ use multibody_engine::contracts::call::Call;
 use multibody_engine::contracts::function::FunctionKind;
 use multibody_engine::contracts::symbol::Symbol;
 use multibody_engine::model::types::{Model, Packs};
-use multibody_engine::optimize::program::{Compiled, Expression, Statement};
+use multibody_engine::optimize::program::{Compiled, Expression, Size, Statement};
 use multibody_engine::{mechanics, optimize, verify};
 
 fn is_packed(compiled: &Compiled) -> bool {
-    let is_pack = |statement: &Statement| matches!(statement, Statement::Pack { .. } | Statement::PackSines(_));
+    let is_pack = |statement: &Statement| matches!(statement, Statement::Pack { .. } | Statement::PackSines(..));
     compiled.functions.iter().any(|function| function.program.statements.iter().any(is_pack))
 }
 
@@ -117,6 +117,71 @@ fn legs_of_a_platform_are_alike() {
             let size = a.iter().fold(1.0_f64, |most, x| most.max(x.abs()));
             for (a, b) in a.iter().zip(&b) {
                 assert!((a - b).abs() < 1e-9 * size, "{kind:?}, {draw}: {a:e}, {b:e}");
+            }
+        }
+    }
+}
+
+/// Two arms on a spine whose hinges are alike: the spine's are no limbs, and what the arms do is done for both. The program is
+/// right, gives what it gives without packs, and leaves to scalars what the trunk does alone.
+#[test]
+fn two_arms_on_a_spine() {
+    let hinge = |name: &str, parent: &str, axis: &str, turn: f64| {
+        format!(
+            "body {name} {{
+                mass: 1.3, com: [0.01, -0.02, 0.{}], inertia: inertia(0.031, 0.043, 0.059, 0.002, -0.003, 0.004),
+            }}
+            joint to_{name}: Revolute {{ parent: {parent}.at([0.02, 0.1, -0.03]).rotated([0.3, 1.0, -0.2], {turn}), child: {name}, axis: {axis} }}
+            ",
+            name.len()
+        )
+    };
+    let mut text = String::new();
+    for (parent, child) in [("pelvis", "lumbar"), ("lumbar", "thorax"), ("thorax", "chest")] {
+        text += &hinge(child, parent, "[0.2, -0.1, 1.0]", 0.4);
+    }
+    for (side, turn) in [("left", 1.1), ("right", -1.1)] {
+        let names = ["clavicle", "humerus", "ulna", "hand"].map(|part| format!("{side}_{part}"));
+        let mut parent = "chest".to_owned();
+        for (name, axis) in
+            names.into_iter().zip(["[1.0, 0.2, 0.1]", "[0.1, 1.0, 0.3]", "[-0.2, 0.1, 1.0]", "[1.0, -0.3, 0.2]"])
+        {
+            text += &hinge(&name, &parent, axis, turn);
+            parent = name;
+        }
+    }
+    let model = corpus::model(&format!(
+        "pub mod torso {{
+            formulation {{ packs: Four }}
+            body pelvis {{ mass: 2.1, com: [0.02, -0.01, 0.03], inertia: diag(0.031, 0.043, 0.059) }}
+            joint float: Free {{ parent: ground, child: pelvis }}
+            {text}
+            emit forward_dynamics, inverse_dynamics, mass_matrix;
+        }}"
+    ));
+    let (structure, derivation) = mechanics::of(&model).unwrap_or_else(|_| panic!("a derivation"));
+    let compiled = optimize::compile(&derivation).unwrap();
+    let found = verify::check(&model, &structure, &derivation, &compiled);
+    assert!(found.wrong.is_empty() && found.broken.is_none() && found.unchecked.is_empty(), "{found:?}");
+    let alone = optimize::compile(&mechanics::of(&Model { packs: Packs::Off, ..model }).unwrap().1).unwrap();
+    let mut rng = Rng::new(20_261_129);
+    for (function, other) in compiled.functions.iter().zip(&alone.functions) {
+        let size = |statement: &Statement| match statement {
+            Statement::Pack { size, .. } | Statement::PackSines(size, _) => Some(*size),
+            _ => None,
+        };
+        assert!(function.program.statements.iter().filter_map(size).all(|size| size == Size::Two));
+        let [packed, scalar] = optimize::packs::operations(&function.program).unwrap();
+        println!("{:?}: {packed} on packs, {scalar} on scalars", function.kind);
+        assert!(4 * packed > 3 * scalar, "{:?}: {packed} on packs, {scalar} on scalars", function.kind);
+        for _ in 0..50 {
+            let known: HashMap<Symbol, f64> =
+                derivation.symbols.iter().map(|&symbol| (symbol, rng.real(-3.0, 3.0))).collect();
+            let run = |program: &_| interpreter::run(program, &|symbol| known[&symbol], &|_| f64::NAN);
+            let (a, b) = (run(&other.program), run(&function.program));
+            let size = a.iter().fold(1.0_f64, |most, x| most.max(x.abs()));
+            for (a, b) in a.iter().zip(&b) {
+                assert!((a - b).abs() < 1e-10 * size, "{:?}: {a:e}, {b:e}", function.kind);
             }
         }
     }

@@ -79,7 +79,7 @@ fn new(context: &Context<'_>, at: &At, stored: &[Ident]) -> TokenStream {
         quote!(::core::unimplemented!())
     } else {
         let commented = context.commented;
-        let names = Names { layout, locals: &locals, fields: &context.fields, stored: None, commented, packed: false };
+        let names = Names { layout, locals: &locals, fields: &context.fields, stored: None, commented, packed: None };
         let body = body(&at.program, &names);
         let statements = body.statements;
         let fields = stored.iter().zip(&body.results).map(|(field, value)| initialiser(field, value));
@@ -115,7 +115,7 @@ fn method(context: &Context<'_>, stored: &[Ident], function: &Function) -> Token
     } else {
         let locals = names::unique(function.program.locals.iter().map(String::as_str), RESERVED);
         let (fields, commented) = (&context.fields, context.commented);
-        let names = Names { layout, locals: &locals, fields, stored: Some(stored), commented, packed: false };
+        let names = Names { layout, locals: &locals, fields, stored: Some(stored), commented, packed: None };
         let body = body(&function.program, &names);
         let statements = body.statements;
         let value = results::value(layout, kind, body.results);

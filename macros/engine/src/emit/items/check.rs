@@ -31,7 +31,7 @@ use crate::optimize::program::Expression;
 pub(super) fn item(context: &Context<'_>) -> TokenStream {
     let layout = &context.layout;
     let krate = layout.krate();
-    let print = Names { layout, locals: &[], fields: &[], stored: None, commented: context.commented, packed: false };
+    let print = Names { layout, locals: &[], fields: &[], stored: None, commented: context.commented, packed: None };
     let mut checks = TokenStream::new();
     for value in range::beyond_single(context) {
         let what = format!("the number {} of this model is out of the range of the scalar", literals::text(value));
@@ -191,7 +191,7 @@ fn derived(context: &Context<'_>) -> TokenStream {
     let locals = names::unique(checks.program.locals.iter().map(String::as_str), RESERVED);
     let body = body(
         &checks.program,
-        &Names { layout, locals: &locals, fields: &[], stored: None, commented: context.commented, packed: false },
+        &Names { layout, locals: &locals, fields: &[], stored: None, commented: context.commented, packed: None },
     );
     let mut values = body.results.into_iter();
     let mut tests = TokenStream::new();

@@ -71,7 +71,7 @@ fn new(context: &Context<'_>) -> TokenStream {
             fields: &[],
             stored: None,
             commented: context.commented,
-            packed: false,
+            packed: None,
         },
     );
     let value = if context.hollow {

@@ -75,7 +75,7 @@ fn own(context: &Context<'_>, program: &Program) -> (TokenStream, TokenStream) {
             fields: &context.fields,
             stored: None,
             commented: context.commented,
-            packed: false,
+            packed: None,
         },
     );
     let statements = body.statements;

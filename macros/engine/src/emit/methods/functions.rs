@@ -91,7 +91,7 @@ pub(in crate::emit) fn method(context: &Context<'_>, function: &Function) -> Tok
                 fields: &context.fields,
                 stored: None,
                 commented: context.commented,
-                packed: false,
+                packed: None,
             },
         );
         let statements = body.statements;

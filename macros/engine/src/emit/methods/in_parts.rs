@@ -32,7 +32,7 @@ pub(super) fn method(context: &Context<'_>, function: &Function, named: &BTreeSe
     let reserved: Vec<&str> = RESERVED.iter().copied().chain([KEPT]).collect();
     let locals = names::unique(program.locals.iter().map(String::as_str), &reserved);
     let (fields, commented) = (&context.fields, context.commented);
-    let names = Names { layout, locals: &locals, fields, stored: None, commented, packed: false };
+    let names = Names { layout, locals: &locals, fields, stored: None, commented, packed: None };
     let read = functions::roots(&program);
     let arguments = Arguments::of(function.kind, &read).read(&read);
     let writing = Writing { program: &program, live: &live, names: &names, arguments, places: cut.places };

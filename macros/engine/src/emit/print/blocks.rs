@@ -12,7 +12,7 @@ use quote::quote;
 
 use crate::emit::layout::leaf;
 use crate::emit::names;
-use crate::optimize::program::{Expression, Local, Program, Sine, Statement};
+use crate::optimize::program::{Expression, Local, Program, Sine, Size, Statement};
 
 use super::expressions::Names;
 
@@ -261,8 +261,8 @@ impl<'a> Blocks<'a> {
     }
 
     /// Names in expressions on packs.
-    fn packed(&self) -> Names<'a> {
-        Names { packed: true, ..*self.names }
+    fn packed(&self, size: Size) -> Names<'a> {
+        Names { packed: Some(size), ..*self.names }
     }
 
     /// Expands to `let a = ..;`, sines, packs, a solve or a loop.
@@ -272,18 +272,19 @@ impl<'a> Blocks<'a> {
                 let (name, value) = (self.name(*local), self.names.expression(value));
                 quote!(let #name = #value;)
             }
-            Statement::Pack { local, value } => {
-                let (name, value) = (self.name(*local), self.packed().expression(value));
+            Statement::Pack { size, local, value } => {
+                let (name, value) = (self.name(*local), self.packed(*size).expression(value));
                 quote!(let #name = #value;)
             }
-            Statement::PackSines(sine) => {
+            Statement::PackSines(size, sine) => {
                 let [sin, cos] = sine.defined().map(|local| self.name(local));
-                let angle = self.packed().expression(&sine.angle);
+                let angle = self.packed(*size).expression(&sine.angle);
                 quote!(let (#sin, #cos) = T::sines(#angle);)
             }
-            Statement::Members { pack, members } => {
-                let names = members.iter().map(|local| local.map_or(quote!(_), |local| self.name(local)));
-                let pack = self.packed().expression(pack);
+            Statement::Members { size, pack, members } => {
+                let members = members.iter().take(size.members());
+                let names = members.map(|local| local.map_or(quote!(_), |local| self.name(local)));
+                let pack = self.packed(*size).expression(pack);
                 quote!(let [#(#names),*] = T::members(#pack);)
             }
             Statement::SinCos(_) => self.sines(&live.sines),

@@ -14,7 +14,7 @@ use crate::emit::names;
 use crate::invariant::fault::raise;
 use crate::invariant::injection::{Break, broken};
 use crate::model::types::{External, ExternalId};
-use crate::optimize::program::{Expression, FieldId};
+use crate::optimize::program::{Expression, FieldId, Size};
 
 use super::literals;
 
@@ -38,8 +38,8 @@ pub(in crate::emit) struct Names<'a> {
     pub(in crate::emit) stored: Option<&'a [Ident]>,
     /// Whether statements stand under headings, as `#[doc = "// .."]`.
     pub(in crate::emit) commented: bool,
-    /// Whether operations are those of packs.
-    pub(in crate::emit) packed: bool,
+    /// Where operations are those of packs: how many members these have.
+    pub(in crate::emit) packed: Option<Size>,
 }
 
 impl Names<'_> {
@@ -88,29 +88,36 @@ impl Names<'_> {
             Expression::Fused(operands) => {
                 let operands = operands.iter().map(|operand| self.expression(operand));
                 match self.packed {
-                    true => quote!(T::mul_adds(#(#operands),*)),
-                    false => quote!(Real::mul_add(#(#operands),*)),
+                    Some(_) => quote!(T::mul_adds(#(#operands),*)),
+                    None => quote!(Real::mul_add(#(#operands),*)),
                 }
             }
-            Expression::Call(Call::Sqrt, arguments) if self.packed => {
+            Expression::Call(Call::Sqrt, arguments) if self.packed.is_some() => {
                 let arguments = arguments.iter().map(|argument| self.expression(argument));
                 quote!(T::roots(#(#arguments),*))
             }
             Expression::Call(call, arguments) => self.call(*call, arguments),
-            Expression::Pack(members) => self.pack(members),
+            Expression::Pack(members) => self.pack(self.packed.unwrap_or(Size::Four), members),
         };
         if binds < least { quote!((#tokens)) } else { tokens }
     }
 
-    /// `T::four([a, b, c, d])`, `T::four_of(a)`.
-    fn pack(&self, members: &[Expression]) -> TokenStream {
+    /// `T::four([a, b, c, d])`, `T::two_of(a)`.
+    fn pack(&self, size: Size, members: &[Expression]) -> TokenStream {
+        let members = &members[..members.len().min(size.members())];
         let mut each = members.iter().map(|member| self.expression(member));
         if members.iter().all(|member| Some(member) == members.first()) {
             let member = each.next();
-            return quote!(T::four_of(#member));
+            return match size {
+                Size::Two => quote!(T::two_of(#member)),
+                Size::Four => quote!(T::four_of(#member)),
+            };
         }
         let each = each.map(leaf::element);
-        quote!(T::four([#(#each),*]))
+        match size {
+            Size::Two => quote!(T::two([#(#each),*])),
+            Size::Four => quote!(T::four([#(#each),*])),
+        }
     }
 
     /// Terms from left to right.

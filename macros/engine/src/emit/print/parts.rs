@@ -153,7 +153,7 @@ impl Flow {
                 expression.each_local(&mut |local| flow.last[local.0] = number);
             }
             let is_bound = match live.statement {
-                Statement::Pack { .. } | Statement::PackSines(_) => true,
+                Statement::Pack { .. } | Statement::PackSines(..) => true,
                 Statement::Let { value, .. } => flow.is_comparison(value),
                 _ => false,
             };

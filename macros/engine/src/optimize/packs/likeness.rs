@@ -2,15 +2,16 @@
 //!
 //! In: statements, and which coordinates belong to limbs that are alike. Out: [`Group`]s of statements, one of each limb at most.
 //!
-//! A statement belongs to a limb if all that it reads belongs to that limb or to none. Statements are alike if they have a
+//! A statement belongs to a limb if it reads what belongs to that limb, and to no other. What is common to several limbs, as the acceleration of
+//! the trunk, is as a number to each: on the way back from the trunk limbs are alike again. Statements are alike if they have a
 //! *signature* in common: their operations, without signs and without an order of terms and factors, on leaves of one kind: a
 //! literal, a stored field, the same coordinate of the limb, the same statement of the limb, or values of one form that are shared.
 //! Statements that are alike are equally deep, so they are looked at by depth, and what is read is in its group before. Of several
 //! that one limb has with a signature, those go together that read the same literals and shared values, then those that stand in
 //! the same order.
 //!
-//! Limbs of a platform have no coordinates of their own where their equations are solved for the platform's (`nameless`). There
-//! the number of limbs is the one by which most work is repeated; from the results down, statements that stand there as often
+//! Limbs of a platform have no coordinates of their own where their equations are solved for the platform's (`nameless`), so limbs
+//! without coordinates are looked for where those with coordinates do less than half of the work. There the number of limbs is the one by which most work is repeated; from the results down, statements that stand there as often
 //! are taken for the limbs' in their order, and what only one of them reads is that one's.
 
 use std::collections::hash_map::DefaultHasher;
@@ -60,15 +61,36 @@ pub(super) struct Likeness<'a> {
     defined: HashMap<Local, (usize, usize)>,
 }
 
-impl Owner {
-    /// What depends on both. Coordinates tell more of limbs than numbers do.
-    fn and(self, other: Owner) -> Owner {
-        match (self, other) {
-            (Owner::Nobody, owner) | (owner, Owner::Nobody) => owner,
-            (Owner::Limb(a), Owner::Limb(b)) if a == b => self,
-            (Owner::Limb(a), Owner::Limb(b)) if b.set == NAMELESS && a.set != NAMELESS => self,
-            (Owner::Limb(a), Owner::Limb(b)) if a.set == NAMELESS && b.set != NAMELESS => other,
-            _ => Owner::Several,
+/// Whom the leaves of a statement belong to.
+#[derive(Default)]
+struct Leaves {
+    /// Of limbs with coordinates, then of those without, which count where there are none: one limb, or several.
+    limbs: [Option<Option<Limb>>; 2],
+    shared: bool,
+}
+
+impl Leaves {
+    fn add(&mut self, owner: Owner) {
+        match owner {
+            Owner::Nobody => {}
+            Owner::Several => self.shared = true,
+            Owner::Limb(limb) => {
+                let found = &mut self.limbs[usize::from(limb.set == NAMELESS)];
+                *found = match *found {
+                    None => Some(Some(limb)),
+                    Some(known) => Some(known.filter(|&known| known == limb)),
+                };
+            }
+        }
+    }
+
+    /// What is common to several limbs is as a number to one of them: the acceleration of the trunk to the leg that it carries.
+    fn owner(&self) -> Owner {
+        match self.limbs[0].or(self.limbs[1]) {
+            Some(Some(limb)) => Owner::Limb(limb),
+            Some(None) => Owner::Several,
+            None if self.shared => Owner::Several,
+            None => Owner::Nobody,
         }
     }
 }
@@ -76,10 +98,20 @@ impl Owner {
 impl<'a> Likeness<'a> {
     pub(super) fn new(statements: &[Statement], limbs: &'a Limbs) -> Likeness<'a> {
         let by_coordinates = Likeness::with(statements, limbs, &vec![None; statements.len()]);
+        // What looks like limbs without coordinates may be a spine's, on which those with coordinates stand.
+        let all: usize = statements.iter().map(leaves).sum();
+        if 2 * by_coordinates.work(statements) > all {
+            return by_coordinates;
+        }
         match by_coordinates.nameless(statements) {
             Some(given) => Likeness::with(statements, limbs, &given),
             None => by_coordinates,
         }
+    }
+
+    /// How much stands in groups.
+    fn work(&self, statements: &[Statement]) -> usize {
+        self.groups.iter().flat_map(BTreeMap::values).map(|&number| leaves(&statements[number])).sum()
     }
 
     /// With limbs of which statements are known to be.
@@ -169,8 +201,10 @@ impl<'a> Likeness<'a> {
         let mut alike: BTreeMap<u64, Vec<usize>> = BTreeMap::new();
         for &number in level {
             let statement = &statements[number];
-            let owners = statement.expressions().map(|expression| self.owner(expression));
-            self.owners[number] = owners.fold(self.owners[number], Owner::and);
+            let mut leaves = Leaves::default();
+            leaves.add(self.owners[number]);
+            statement.expressions().for_each(|expression| self.add_leaves(&mut leaves, expression));
+            self.owners[number] = leaves.owner();
             self.forms[number] = self.of_statement(statement);
             if let (Some(signature), false) = (self.forms[number], self.owners[number] == Owner::Several) {
                 alike.entry(signature).or_default().push(number);
@@ -229,9 +263,14 @@ impl<'a> Likeness<'a> {
 
     /// Whom a value belongs to.
     pub(super) fn owner(&self, expression: &Expression) -> Owner {
-        let mut owner = Owner::Nobody;
+        let mut leaves = Leaves::default();
+        self.add_leaves(&mut leaves, expression);
+        leaves.owner()
+    }
+
+    fn add_leaves(&self, leaves: &mut Leaves, expression: &Expression) {
         expression.each_leaf(&mut |leaf| {
-            owner = owner.and(match leaf {
+            leaves.add(match leaf {
                 Expression::Local(local) => {
                     self.defined.get(local).map_or(Owner::Several, |&(number, _)| self.owners[number])
                 }
@@ -242,7 +281,6 @@ impl<'a> Likeness<'a> {
                 _ => Owner::Nobody,
             });
         });
-        owner
     }
 
     /// What limbs may have in common beside the form: literals without signs, and shared values, in an order of their own.

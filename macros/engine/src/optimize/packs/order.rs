@@ -7,13 +7,14 @@
 use std::collections::{HashMap, HashSet};
 
 use crate::invariant::injection::{Break, broken};
-use crate::optimize::program::{Expression, Local, MEMBERS, Program, Statement};
+use crate::optimize::program::{Expression, Local, MEMBERS, Program, Size, Statement};
 
 use super::halves;
 use super::unify::Signs;
 
 /// Statements as one.
 pub(super) struct Pack {
+    pub(super) size: Size,
     /// Numbers of the members' statements.
     pub(super) statements: [Option<usize>; MEMBERS],
     pub(super) statement: Statement,
@@ -128,7 +129,7 @@ pub(super) fn ordered(mut program: Program, packs: &[Pack]) -> Program {
                 }
             }
             if members.iter().any(Option::is_some) {
-                statements.push(Statement::Members { pack: Expression::Local(local), members });
+                statements.push(Statement::Members { size: pack.size, pack: Expression::Local(local), members });
             }
         }
     }

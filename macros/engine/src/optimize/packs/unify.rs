@@ -12,7 +12,7 @@ use std::collections::HashMap;
 
 use crate::contracts::call::Call;
 use crate::invariant::injection::{Break, broken};
-use crate::optimize::program::{Expression, Local, MEMBERS};
+use crate::optimize::program::{Expression, Local, MEMBERS, Size};
 
 use super::likeness::Likeness;
 
@@ -25,12 +25,14 @@ type Members<'e> = Vec<(usize, &'e Expression)>;
 /// The signature of an operand, and what limbs may have in common beside it.
 type Form = (u64, Vec<(u8, u64)>);
 
-/// Where a local is in a pack: the pack's local, its place there, the signs of the pack.
-pub(super) type Packed = HashMap<Local, (Local, usize, Signs)>;
+/// Where a local is in a pack: how many members that has, its local, the place there, the signs of the pack.
+pub(super) type Packed = HashMap<Local, (Size, Local, usize, Signs)>;
 
 pub(super) struct Unifier<'a> {
     pub(super) likeness: &'a Likeness<'a>,
     pub(super) packed: &'a Packed,
+    /// How many members the pack has.
+    pub(super) size: Size,
 }
 
 /// An expression on packs.
@@ -119,17 +121,17 @@ impl Unifier<'_> {
             Expression::Local(local) => self.packed.get(local).copied(),
             _ => None,
         };
-        if let Some((pack, at, signs)) = place_of(expression)
-            && at == first
+        if let Some((size, pack, at, signs)) = place_of(expression)
+            && (size, at) == (self.size, first)
             && members
                 .iter()
-                .all(|&(place, other)| place_of(other).is_some_and(|(theirs, at, _)| theirs == pack && at == place))
+                .all(|&(place, other)| place_of(other).is_some_and(|(_, theirs, at, _)| theirs == pack && at == place))
         {
             return Some(Value { expression: Expression::Local(pack), signs });
         }
         let mut list = vec![expression.clone(); MEMBERS];
         for &(place, expression) in members {
-            let lane = if broken(Break::LaneIndex) { (place + 1) % MEMBERS } else { place };
+            let lane = if broken(Break::LaneIndex) { (place + 1) % self.size.members() } else { place };
             list[lane] = expression.clone();
         }
         Some(Value { expression: Expression::Pack(list), signs: none })

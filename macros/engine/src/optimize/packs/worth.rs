@@ -2,14 +2,14 @@
 //!
 //! In: statements and packs. Out: the packs that save more than it takes to fill and to empty them.
 //!
-//! A pack saves the operations of all members but one. To put four scalars into one takes three instructions, one scalar one, and to
+//! A pack saves the operations of all members but one. To put four scalars into one takes three instructions, two or one scalar one, and to
 //! take a member out about one; literals are loaded. What another pack gives or takes is free, so a pack with little work
 //! between others pays.
 
 use std::collections::{HashMap, HashSet};
 
 use crate::contracts::call::Call;
-use crate::optimize::program::{Expression, Local, Program, Statement};
+use crate::optimize::program::{Expression, Local, Program, Size, Statement};
 
 use super::order::Pack;
 
@@ -17,8 +17,6 @@ use super::order::Pack;
 const LONG: i32 = 4;
 /// Sine and cosine of one angle: in vectors, with packs or without them.
 const SINES: i32 = 2;
-/// To put scalars into a pack.
-const GATHER: i32 = 4;
 /// To repeat a scalar.
 const REPEAT: i32 = 1;
 /// To take a member out.
@@ -54,6 +52,11 @@ pub(super) fn weight(program: &Program) -> u32 {
         };
     }
     (sum + filled.values().sum::<i32>()).unsigned_abs()
+}
+
+/// To put scalars into a pack.
+fn gather(size: Size) -> i32 {
+    size.members() as i32
 }
 
 struct Outlook<'a> {
@@ -129,7 +132,7 @@ impl<'a> Outlook<'a> {
             reads.into_iter().map(|read| self.taken(read, Some(number)) - self.taken(read, None)).sum();
         // What it gives to other packs they would have to be filled with.
         let given = pack.statement.defined().into_iter().filter(|local| self.read.contains(local));
-        let given = given.count() as i32 * GATHER;
+        let given = given.count() as i32 * gather(pack.size);
         self.saved(number) + more_taken * TAKE + given - filled - self.taken(number, None) * TAKE
     }
 
@@ -184,12 +187,16 @@ fn summed(program: &Program, packs: &[Pack]) -> HashSet<Local> {
 /// Packs that are made of scalars in a statement, and what each takes.
 fn gathers(statement: &Statement) -> HashMap<String, i32> {
     let mut found = HashMap::new();
+    let (Statement::Pack { size, .. } | Statement::PackSines(size, _) | Statement::Members { size, .. }) = *statement
+    else {
+        return found;
+    };
     let mut stack: Vec<&Expression> = statement.expressions().collect();
     while let Some(expression) = stack.pop() {
         match expression {
             Expression::Pack(list) if list.iter().all(|item| matches!(item, Expression::Literal(_))) => {}
             Expression::Pack(list) => {
-                found.insert(format!("{list:?}"), if list.len() == 1 { REPEAT } else { GATHER });
+                found.insert(format!("{size:?} {list:?}"), if list.len() == 1 { REPEAT } else { gather(size) });
             }
             Expression::Neg(inner) => stack.push(inner),
             Expression::Sum(terms) => stack.extend(terms.iter().map(|(_, term)| term)),
@@ -204,7 +211,7 @@ fn gathers(statement: &Statement) -> HashMap<String, i32> {
 
 fn of_statement(statement: &Statement) -> i32 {
     let own = match statement {
-        Statement::PackSines(_) => 4 * SINES,
+        Statement::PackSines(size, _) => size.members() as i32 * SINES,
         Statement::SinCos(sines) => SINES * sines.len() as i32,
         _ => 0,
     };
