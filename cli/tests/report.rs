@@ -151,12 +151,19 @@ fn losers_are_told_with_what_they_cost() {
         }
         others += 1;
         let expected = match work - taken {
-            0 => "as much, and later".to_owned(),
+            0 => "as much".to_owned(),
             more => format!("+{more}, +{:.0} %", 100.0 * f64::from(more) / f64::from(taken)),
         };
         assert_eq!(cells[3], expected, "{cells:?}");
     }
     assert!(others >= 4, "{others}");
+}
+
+/// In packs what is taken may be dearer on scalars than what has lost.
+#[test]
+fn losers_that_packs_would_save_less_of() {
+    let text = page("torso.rs", "packs", &[]);
+    assert!(text.contains(", and more in packs"));
 }
 
 /// By its rows the classes of a matrix's squares.

@@ -55,7 +55,8 @@ pub use packs::{Four, Pack, Packed, Two};
 pub trait Real: SimdRealField<Element: RealField + Copy> + Copy {
     /// The result of a comparison: `bool`, or one boolean for each lane. Masks combine with `&`, `|` and `!`.
     type Mask: SimdBool;
-    /// Two of this scalar, see [`Packed`]: a vector of the processor, or [`Two<Self>`](Two) for any scalar that knows no better.
+    /// Two of this scalar, see [`Packed`]: a vector of the processor, which has no name of its own, or [`Two<Self>`](Two) for any scalar that
+    /// knows no better.
     type Two: Packed<Self, 2>;
     /// Four of this scalar: a vector of the processor, or [`Four<Self>`](Four).
     type Four: Packed<Self, 4>;

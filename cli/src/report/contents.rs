@@ -256,14 +256,14 @@ fn costs(material: &Material<'_>) -> Option<Section> {
     let mut blocks = vec![Block::Words(says), Block::Table(table), Block::Heading("Candidates".to_owned())];
     let mut table = Table::new(["function", "method", "work", "against the one taken"], 2);
     for function in &told {
-        let least = function.after.weight();
-        let taken = [name(function), function.method.to_owned(), least.to_string(), "taken".to_owned()];
-        table.rows.push(taken.to_vec());
+        let taken = function.after.weight();
+        let row = [name(function), function.method.to_owned(), taken.to_string(), "taken".to_owned()];
+        table.rows.push(row.to_vec());
         let mut rivals: Vec<&Rival> = function.rivals.iter().collect();
         rivals.sort_by_key(|rival| rival.cost.weight());
         for rival in rivals {
             let work = rival.cost.weight();
-            table.rows.push(vec![String::new(), rival.method.to_owned(), work.to_string(), against(least, work)]);
+            table.rows.push(vec![String::new(), rival.method.to_owned(), work.to_string(), against(taken, work)]);
         }
     }
     let rows = table.rows.len();
@@ -272,12 +272,14 @@ fn costs(material: &Material<'_>) -> Option<Section> {
     section("Costs", blocks)
 }
 
-/// By how much a candidate has lost.
-fn against(least: u32, work: u32) -> String {
-    match (least, work - least) {
-        (_, 0) => "as much, and later".to_owned(),
-        (0, more) => format!("+{more}"),
-        (least, more) => format!("+{more}, +{:.0} %", 100.0 * f64::from(more) / f64::from(least)),
+/// By how much a candidate has lost. Where limbs go in packs it may take less work on scalars than the one that was taken.
+fn against(taken: u32, work: u32) -> String {
+    let more = i64::from(work) - i64::from(taken);
+    match (taken, more) {
+        (_, 0) => "as much".to_owned(),
+        (_, ..0) => format!("{more}, and more in packs"),
+        (0, _) => format!("+{more}"),
+        (taken, _) => format!("+{more}, +{:.0} %", 100.0 * more as f64 / f64::from(taken)),
     }
 }
 

@@ -10,7 +10,7 @@ use super::Real;
 #[cfg(feature = "wide")]
 use super::float::FUSED;
 
-/// So many of a scalar, whose operations are those of the scalar on each of them.
+/// `N` of a scalar, whose operations are those of the scalar on each of them.
 pub trait Packed<T, const N: usize>:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {
@@ -29,7 +29,7 @@ pub trait Packed<T, const N: usize>:
     }
 }
 
-/// A pack of any scalar: an array, worked with member by member.
+/// A pack of two or four of any scalar ([`Two`], [`Four`]): an array, worked with member by member.
 ///
 /// ```
 /// use multibody::{Four, Packed, Two};

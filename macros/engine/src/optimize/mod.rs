@@ -81,7 +81,7 @@ pub enum Excess {
     Expressions,
 }
 
-/// Optimises every candidate, takes the cheapest of each function, and moves parameter work into `Model::new`.
+/// Optimises every candidate, takes the cheapest of each function (in packs, where limbs go in packs), and moves parameter work into `Model::new`.
 pub fn compile(derivation: &Derivation) -> Result<Compiled, Refusal> {
     compile_with(derivation, Plain::default(), false)
 }
@@ -112,6 +112,7 @@ pub fn compile_with(derivation: &Derivation, plain: Plain<'_>, fused: bool) -> R
         let mut ways: Vec<Chosen> = Vec::new();
         let mut tried: Vec<Rival> = Vec::new();
         let is_plain = plain.functions.contains(&function.kind);
+        let limbs = derivation.limbs.as_ref().filter(|_| !is_plain);
         for (candidate, (method, results)) in function.candidates.iter().enumerate() {
             let mut import = |list: &[Scalar]| {
                 let Imported { dag, before, size } = importer.import(list);
@@ -134,15 +135,22 @@ pub fn compile_with(derivation: &Derivation, plain: Plain<'_>, fused: bool) -> R
             tried.push(Rival { method, cost: dag.cost().0 });
             let (kind, parts, rivals) = (function.kind, results.parts.clone(), Vec::new());
             ways.push(Chosen { kind, parts, method, candidate, before, dag, rivals });
+            // Only packs ask for more than the cheapest.
+            if limbs.is_none() {
+                let best = ways.drain(..).min_by_key(|way| way.dag.cost().0.weight());
+                ways.extend(best);
+            }
         }
         let least = tried.iter().map(|rival| rival.cost.weight()).min().unwrap_or(0);
-        let is_near = |way: &Chosen| 100 * way.dag.cost().0.weight() <= (100 + MORE_BEFORE_PACKS) * least;
-        let best = match &derivation.limbs {
-            Some(limbs) if !is_plain && ways.len() > 1 => {
-                let is_tried = |way: &Chosen| !limbs.numbers.is_empty() || is_near(way);
-                ways.into_iter().filter(is_tried).min_by_key(|way| packed_weight(&way.dag, &symbols, limbs))
+        let best = match limbs {
+            Some(limbs) if ways.len() > 1 => {
+                let is_near = |way: &Chosen| {
+                    let weight = way.dag.cost().0.weight();
+                    !limbs.numbers.is_empty() || 100 * weight <= (100 + MORE_BEFORE_PACKS) * least
+                };
+                ways.into_iter().filter(is_near).min_by_key(|way| packed_weight(&way.dag, &symbols, limbs))
             }
-            _ => ways.into_iter().min_by_key(|way| way.dag.cost().0.weight()),
+            _ => ways.pop(),
         };
         chosen.extend(best.map(|mut chosen| {
             tried.remove(chosen.candidate);

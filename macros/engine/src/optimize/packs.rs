@@ -112,6 +112,7 @@ fn proposed(likeness: &Likeness<'_>) -> Vec<Places> {
             for (limb, &statement) in group.iter().filter(|(limb, _)| limb.number / MEMBERS == chunk) {
                 places[limb.number % MEMBERS] = Some(statement);
             }
+            // Chunks are of limbs that there are, so at least one is left.
             let size = if count - MEMBERS * chunk == 2 { Size::Two } else { Size::Four };
             let enough = size == Size::Two || group.len() >= LEAST;
             if enough && places.iter().flatten().count() > 1 {

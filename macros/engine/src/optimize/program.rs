@@ -37,8 +37,7 @@ pub enum Expression {
     Product(Vec<Expression>),
     Quotient(Box<Expression>, Box<Expression>),
     Call(Call, Vec<Expression>),
-    /// Inside of packs alone: one scalar for each member, or one for all of them. A list has [`MEMBERS`] items always; packs of
-    /// two have the first ones.
+    /// Inside of packs alone: a list of one scalar, which all members are, or of [`MEMBERS`], of which packs of two read the first two.
     Pack(Vec<Expression>),
 }
 

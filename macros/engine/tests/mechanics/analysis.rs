@@ -422,6 +422,17 @@ fn what_stands_alone_is_solved_for() {
     // Of two that do, the one that also does where the motion begins.
     assert_eq!(of("constraint e = 2.0 * b + sin(a) * cos(c);", ", independent: [b]").0, ["newton 0: a"]);
     assert_eq!(of("constraint e = a + 0.1 * sin(a) + b * c;", ""), newton("newton 0: a"));
+    assert_eq!(of("constraint e = a + 0.1 * sin(a) + b * c + 1e-10;", ""), newton("newton 0: a"));
+    assert_eq!(of("constraint e = a + 0.1 * sin(a) + b * c;", ", independent: [a]").0, ["newton 0: c"]);
+    // Drives stand where they begin, not at zero.
+    for drive in ["1.0", "1.0 + 0.3 * sin(t)"] {
+        let text = format!("constraint e = a + 0.1 * sin(a) + (b - 1.0) * c; drive b = {drive};");
+        assert_eq!(of(&text, ""), newton("newton 0: a"), "{drive}");
+    }
+    let (all, _) = of("constraint e = a + 0.1 * sin(a) + b * c; drive b = 1.0 + t;", "");
+    assert_eq!(all, ["newton 0: c"]);
+    // A pose where nothing follows has no say.
+    assert_eq!(of("constraint e = sin(a) * sin(b) + c * c * a;", "").0, ["newton 0: c"]);
     // Its factor depends on another coordinate, or on a parameter that may be zero, or it stands elsewhere too.
     assert_eq!(of("constraint e = a * b + cos(c) - 0.5;", ", independent: [a, c]"), newton("newton 0: b"));
     assert_eq!(of("param k = 2.0; constraint e = k * b + cos(c);", ", independent: [a, c]"), newton("newton 0: b"));

@@ -103,6 +103,22 @@ fn beside_multipliers() {
 /// What a coupling gives may follow from what an equation gives, and the other way about, before rates follow from velocities: the height
 /// of a wheel stands alone all the same.
 #[test]
+fn a_coupling_whose_dependent_must_follow_at_the_start() {
+    let model = model_with(
+        "",
+        "body sled { mass: 1.0, com: [0.01, 0.02, 0.03], inertia: diag(0.1, 0.12, 0.13) }
+        body rider { mass: 0.7, com: [0.1, 0.02, 0.03], inertia: diag(0.02, 0.012, 0.013) }
+        joint float: Free { parent: ground, child: sled, coordinates: RollPitchYaw }
+        joint seat: Ball { parent: sled, child: rider, coordinates: RollPitchYaw }
+        constraint blade: Skate { blade: sled, along: X }
+        constraint product = float.yaw + 0.1 * sin(float.yaw) + seat.yaw * seat.roll;
+        formulation { constraints: Reduced }
+        emit mass_matrix;",
+    );
+    assert!(compile(&model).is_ok());
+}
+
+#[test]
 fn couplings_beside_wheels() {
     let disc = "body disc { mass: 1.0, com: [0.01, 0.02, 0.03], inertia: diag(0.1, 0.12, 0.13) }
         body rider { mass: 0.7, com: [0.1, 0.02, 0.03], inertia: diag(0.02, 0.012, 0.013) }

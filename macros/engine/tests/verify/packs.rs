@@ -172,7 +172,6 @@ fn two_arms_on_a_spine() {
         };
         assert!(function.program.statements.iter().filter_map(size).all(|size| size == Size::Two));
         let [packed, scalar] = optimize::packs::operations(&function.program).unwrap();
-        println!("{:?}: {packed} on packs, {scalar} on scalars", function.kind);
         assert!(4 * packed > 3 * scalar, "{:?}: {packed} on packs, {scalar} on scalars", function.kind);
         for _ in 0..50 {
             let known: HashMap<Symbol, f64> =

@@ -97,7 +97,10 @@ impl Names<'_> {
                 quote!(T::roots(#(#arguments),*))
             }
             Expression::Call(call, arguments) => self.call(*call, arguments),
-            Expression::Pack(members) => self.pack(self.packed.unwrap_or(Size::Four), members),
+            Expression::Pack(members) => match self.packed {
+                Some(size) => self.pack(size, members),
+                None => raise("packs stand in statements of packs"),
+            },
         };
         if binds < least { quote!((#tokens)) } else { tokens }
     }

@@ -24,6 +24,9 @@ const FOLLOWS: f64 = 1e-9;
 const FOLLOWING_STARTS: usize = 120;
 const LEAST_FOLLOWING: usize = 40;
 
+/// A declared pose is closed if no coordinate moves by more than this to close it: numbers are typed with few digits.
+const TYPED: f64 = 1e-4;
+
 /// Iterations of one start.
 const ITERATIONS: usize = 80;
 
@@ -169,15 +172,19 @@ pub(super) fn configurations(problem: &Problem, equations: &[usize], columns: &[
     found
 }
 
-/// The declared pose, if it is closed and no less of it is determined than anywhere.
+/// The declared pose, if it is closed up to what typed numbers leave, and of the rank that the samples have.
 pub(super) fn home(problem: &Problem, equations: &[usize], columns: &[usize], found: &Found) -> Option<Configuration> {
     let search = Search::new(problem, equations, columns);
-    let (point, mut values) = (problem.home(), Values::default());
-    let at = search.linearise(&point, &mut values);
-    let closed = search.is_closed(&at.residuals) && search.is_aligned(&at.residuals);
-    let home = closed.then(|| search.configuration(point, &at, true));
+    let (declared, mut values) = (problem.origin(), Values::default());
+    let mut point = declared.clone();
+    let moved = |point: &Point| point.0.iter().zip(&declared.0).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
+    if !search.close(&mut point, &mut values) || moved(&point) > TYPED {
+        return None;
+    }
+    let at = problem.linearise(&point, equations, &mut values);
+    let home = search.configuration(point, &at, true);
     let rank = found.configurations.iter().filter_map(|configuration| configuration.rank).max();
-    home.filter(|home| home.rank.is_some() && home.rank >= rank)
+    (home.rank.is_some() && home.rank >= rank).then_some(home)
 }
 
 /// Whether some equations vanish wherever `independent` ones among them do: at configurations found for these alone, from

@@ -232,11 +232,6 @@ impl Problem {
         point
     }
 
-    /// The declared pose.
-    pub(super) fn home(&self) -> Point {
-        Point(self.defaults.clone())
-    }
-
     pub(super) fn put_time(&self, point: &mut Point, time: f64) {
         if let Some(slot) = self.time.and_then(|symbol| point.0.get_mut(symbol)) {
             *slot = time;

@@ -100,9 +100,10 @@ impl ReductionSearch<'_> {
         }
         // Loops that share coordinates can each be on a branch where something else moves, so one sample need not show
         // all of them at their best: first each coordinate needs one vote, and every system one regular sample. Where the
-        // declared pose is closed motions begin there as a rule, so it has a veto if it leaves enough.
+        // declared pose is closed motions begin there as a rule: what doesn't follow there is taken only if nothing else will do.
         let (matrices, home) = matrices.split_at(self.configurations.len());
-        for veto in [home, &[]].into_iter().skip(usize::from(home.is_empty())) {
+        let vetoes: &[&[Matrix]] = if home.is_empty() { &[&[]] } else { &[home, &[]] };
+        for &veto in vetoes {
             let Ok(unknowns) = self.choose(matrices, veto, &rows, &columns, 1) else { continue };
             match self.order(&items, matrices, &rows, &unknowns) {
                 Ok(steps) if self.regular(&steps, matrices) => return Ok(steps),

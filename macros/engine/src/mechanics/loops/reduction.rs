@@ -121,15 +121,10 @@ impl Equations<'_> {
         Ok(reduction)
     }
 
-    /// Adds what a linear coupling gives. A coupling may read what another one gives: in the map it reads that no more.
+    /// Adds what a linear coupling gives. Couplings stand in an order in which each reads earlier ones only; what these give is put in.
     fn couple(&mut self, definition: &Definition, coupled: &mut Map) {
         let position = self.g.substitute(&[definition.position], coupled)[0];
         let own = self.map(&[(self.coordinate_symbols(definition.coordinate)[0], position)]);
-        let mut known: Vec<(SymbolId, Scalar)> = coupled.iter().map(|(&id, &value)| (id, value)).collect();
-        known.sort_unstable_by_key(|entry| entry.0);
-        let values: Vec<Scalar> = known.iter().map(|entry| entry.1).collect();
-        let values = self.g.substitute(&values, &own);
-        coupled.extend(known.into_iter().map(|entry| entry.0).zip(values));
         coupled.extend(own);
     }
 

@@ -10,8 +10,8 @@
 //! that one limb has with a signature, those go together that read the same literals and shared values, then those that stand in
 //! the same order.
 //!
-//! Limbs of a platform have no coordinates of their own where their equations are solved for the platform's (`nameless`), so limbs
-//! without coordinates are looked for where those with coordinates do less than half of the work. There the number of limbs is the one by which most work is repeated; from the results down, statements that stand there as often
+//! Limbs of a platform have no coordinates of their own where their equations are solved for the platform's (`nameless`). They are looked for
+//! where limbs with coordinates do less than half of the work: hinges of a spine are as alike as such legs. Then the number of limbs is the one by which most work is repeated; from the results down, statements that stand there as often
 //! are taken for the limbs' in their order, and what only one of them reads is that one's.
 
 use std::collections::hash_map::DefaultHasher;
@@ -64,9 +64,20 @@ pub(super) struct Likeness<'a> {
 /// Whom the leaves of a statement belong to.
 #[derive(Default)]
 struct Leaves {
-    /// Of limbs with coordinates, then of those without, which count where there are none: one limb, or several.
-    limbs: [Option<Option<Limb>>; 2],
+    with_coordinates: Which,
+    /// These count where there are none with coordinates.
+    without: Which,
+    /// Whether there is anything that several limbs have in common.
     shared: bool,
+}
+
+/// Limbs that have leaves.
+#[derive(Clone, Copy, Default)]
+enum Which {
+    #[default]
+    None,
+    One(Limb),
+    Several,
 }
 
 impl Leaves {
@@ -75,10 +86,11 @@ impl Leaves {
             Owner::Nobody => {}
             Owner::Several => self.shared = true,
             Owner::Limb(limb) => {
-                let found = &mut self.limbs[usize::from(limb.set == NAMELESS)];
+                let found = if limb.set == NAMELESS { &mut self.without } else { &mut self.with_coordinates };
                 *found = match *found {
-                    None => Some(Some(limb)),
-                    Some(known) => Some(known.filter(|&known| known == limb)),
+                    Which::None => Which::One(limb),
+                    Which::One(known) if known == limb => Which::One(limb),
+                    Which::One(_) | Which::Several => Which::Several,
                 };
             }
         }
@@ -86,11 +98,11 @@ impl Leaves {
 
     /// What is common to several limbs is as a number to one of them: the acceleration of the trunk to the leg that it carries.
     fn owner(&self) -> Owner {
-        match self.limbs[0].or(self.limbs[1]) {
-            Some(Some(limb)) => Owner::Limb(limb),
-            Some(None) => Owner::Several,
-            None if self.shared => Owner::Several,
-            None => Owner::Nobody,
+        match (self.with_coordinates, self.without) {
+            (Which::One(limb), _) | (Which::None, Which::One(limb)) => Owner::Limb(limb),
+            (Which::Several, _) | (Which::None, Which::Several) => Owner::Several,
+            (Which::None, Which::None) if self.shared => Owner::Several,
+            (Which::None, Which::None) => Owner::Nobody,
         }
     }
 }

@@ -2,8 +2,8 @@
 //!
 //! In: statements and packs. Out: the packs that save more than it takes to fill and to empty them.
 //!
-//! A pack saves the operations of all members but one. To put four scalars into one takes three instructions, two or one scalar one, and to
-//! take a member out about one; literals are loaded. What another pack gives or takes is free, so a pack with little work
+//! A pack saves the operations of all members but one. To put scalars into one is charged as one instruction for each, to repeat a scalar
+//! as one, and to take a member out as one; literals are loaded. What another pack gives or takes is free, so a pack with little work
 //! between others pays.
 
 use std::collections::{HashMap, HashSet};
