@@ -15,7 +15,7 @@ use crate::emit::print::expressions::Names;
 use crate::emit::print::parts::{self, Part, Parts};
 use crate::emit::{Context, names};
 use crate::invariant::fault::OrFault;
-use crate::optimize::program::{Expression, Function, Program};
+use crate::optimize::program::{Expression, Function, Program, Size};
 
 use super::{functions, results};
 
@@ -122,15 +122,27 @@ impl Writing<'_> {
         let opened = self.arguments.open(&read);
         let kept = names::ident(KEPT);
         let place = |place: usize| Literal::usize_unsuffixed(place);
-        let taken = (!part.reads.is_empty()).then(|| {
-            let names = part.reads.iter().map(|read| &locals[read.local.0]);
-            let places = part.reads.iter().map(|read| place(read.place));
-            quote!(let [#(#names),*] = [#(#kept[#places]),*];)
+        let scalars = part.reads.iter().filter_map(|read| match (read.size, &read.places[..]) {
+            (None, &[at]) => Some((&locals[read.local.0], place(at))),
+            _ => None,
+        });
+        let (scalars, at): (Vec<&Ident>, Vec<Literal>) = scalars.unzip();
+        let taken = (!scalars.is_empty()).then(|| quote!(let [#(#scalars),*] = [#(#kept[#at]),*];));
+        let packs = part.reads.iter().filter_map(|read| {
+            let (name, places) = (&locals[read.local.0], read.places.iter().map(|&at| place(at)));
+            let of = names::ident(match read.size? {
+                Size::Two => "two",
+                Size::Four => "four",
+            });
+            Some(quote!(let #name = T::#of([#(#kept[#places]),*]);))
         });
         let statements = some(self.program, self.names, live, part.writes.iter().map(|write| write.local));
         let written = part.writes.iter().map(|write| {
-            let (place, name) = (place(write.place), &locals[write.local.0]);
-            quote!(#kept[#place] = #name;)
+            let (name, places) = (&locals[write.local.0], write.places.iter().map(|&at| place(at)));
+            match write.size {
+                Some(_) => quote!([#(#kept[#places]),*] = T::members(#name);),
+                None => quote!(#(#kept[#places])* = #name;),
+            }
         });
         let places = place(self.places);
         quote! {
@@ -138,6 +150,7 @@ impl Writing<'_> {
             fn #name(&self, #declared, #kept: &mut [T; #places]) {
                 #opened
                 #taken
+                #(#packs)*
                 #statements
                 #(#written)*
             }

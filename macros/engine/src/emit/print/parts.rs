@@ -5,14 +5,14 @@
 //! parts, and three times the memory), so nobody waits for one that is cut. No operation and no order changes, so no bit does.
 //!
 //! What a part computes and a later one reads is kept in an array, `kept`, of which each value has a place from the end of the part
-//! that computes it to the end of the last one that reads it; then another takes the place. A part reads what it needs at its
-//! beginning and writes at its end. Cuts are where few values are kept, none of them a pack or a comparison, which are no scalars.
+//! that computes it to the end of the last one that reads it, and a pack one for each member; then another takes the place. A part reads what it
+//! needs at its beginning and writes at its end. Cuts are where few values are kept, and none of them is a comparison, which is no scalar.
 
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashMap};
 
 use crate::invariant::fault::{OrFault, raise};
-use crate::optimize::program::{Expression, Local, Program, Statement};
+use crate::optimize::program::{Expression, Local, Program, Size, Statement};
 
 use super::blocks::Live;
 
@@ -21,11 +21,13 @@ pub(in crate::emit) const MOST: usize = 20_000;
 /// As many stand in a part, about, where there are more.
 pub(in crate::emit) const PART: usize = 2_000;
 
-/// Where a value is kept.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// Where a value is kept: a scalar, or the members of a pack.
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub(in crate::emit) struct Kept {
     pub(in crate::emit) local: Local,
-    pub(in crate::emit) place: usize,
+    /// Of a pack.
+    pub(in crate::emit) size: Option<Size>,
+    pub(in crate::emit) places: Vec<usize>,
 }
 
 /// One function: live statements `from..to`.
@@ -99,7 +101,9 @@ impl Parts {
     /// Whatever is read stands where it is looked for, in every part: followed place by place.
     fn check(&self, program: &Program, live: &[Live<'_>]) {
         let mut held: Vec<Option<Local>> = vec![None; self.places];
-        let holds = |held: &[Option<Local>], kept: &Kept| held[kept.place] == Some(kept.local);
+        let holds = |held: &[Option<Local>], kept: &Kept| {
+            !kept.places.is_empty() && kept.places.iter().all(|&place| held[place] == Some(kept.local))
+        };
         for part in &self.list {
             let mut known = vec![false; program.locals.len()];
             for kept in &part.reads {
@@ -120,7 +124,7 @@ impl Parts {
                 if !known[kept.local.0] {
                     raise("a part keeps what it has computed");
                 }
-                held[kept.place] = Some(kept.local);
+                kept.places.iter().for_each(|&place| held[place] = Some(kept.local));
             }
         }
         for result in &program.results {
@@ -140,25 +144,29 @@ struct Flow {
     defined: Vec<Option<usize>>,
     /// The last one that reads it; results count as one more.
     last: Vec<usize>,
-    /// Locals that are no scalars.
+    /// Locals that are packs.
+    size: Vec<Option<Size>>,
+    /// Locals that are neither scalars nor packs.
     bound: Vec<bool>,
 }
 
 impl Flow {
     fn new(program: &Program, live: &[Live<'_>]) -> Flow {
         let count = program.locals.len();
-        let mut flow = Flow { defined: vec![None; count], last: vec![0; count], bound: vec![false; count] };
+        let (defined, last) = (vec![None; count], vec![0; count]);
+        let mut flow = Flow { defined, last, size: vec![None; count], bound: vec![false; count] };
         for (number, live) in live.iter().enumerate() {
             for expression in live.expressions() {
                 expression.each_local(&mut |local| flow.last[local.0] = number);
             }
-            let is_bound = match live.statement {
-                Statement::Pack { .. } | Statement::PackSines(..) => true,
-                Statement::Let { value, .. } => flow.is_comparison(value),
-                _ => false,
+            let (size, is_bound) = match live.statement {
+                Statement::Pack { size, .. } | Statement::PackSines(size, _) => (Some(*size), false),
+                Statement::Let { value, .. } => (None, flow.is_comparison(value)),
+                _ => (None, false),
             };
             for local in live.defined() {
                 flow.defined[local.0] = Some(number);
+                flow.size[local.0] = size;
                 flow.bound[local.0] = is_bound;
             }
         }
@@ -177,6 +185,11 @@ impl Flow {
         }
     }
 
+    /// As many scalars has a local.
+    fn scalars(&self, local: Local) -> usize {
+        self.size[local.0].map_or(1, Size::members)
+    }
+
     /// Locals that outlive the statement which computes them, with both places.
     fn spans(&self) -> impl Iterator<Item = (Local, usize, usize)> + '_ {
         let each = self.defined.iter().zip(&self.last).enumerate();
@@ -186,12 +199,13 @@ impl Flow {
 
     /// Where parts begin, and the end: near equal sizes, where the fewest values are kept.
     fn cuts(&self, live: &[Live<'_>], size: usize) -> Vec<usize> {
-        // Before each statement: values that pass, and whether one of them is no scalar.
+        // Before each statement: scalars that pass, and whether there is a comparison among what passes.
         let mut passing = vec![0_i64; live.len() + 2];
         let mut barred = vec![0_i64; live.len() + 2];
         for (local, defined, last) in self.spans() {
-            passing[defined + 1] += 1;
-            passing[last + 1] -= 1;
+            let scalars = self.scalars(local) as i64;
+            passing[defined + 1] += scalars;
+            passing[last + 1] -= scalars;
             if self.bound[local.0] {
                 barred[defined + 1] += 1;
                 barred[last + 1] -= 1;
@@ -224,7 +238,7 @@ impl Flow {
             of.extend((part.from..part.to).map(|_| number));
         }
         of.push(parts.len());
-        let mut place: Vec<Option<usize>> = vec![None; program.locals.len()];
+        let mut place: Vec<Vec<usize>> = vec![Vec::new(); program.locals.len()];
         // By the part that reads it last.
         let mut ending: Vec<Vec<usize>> = vec![Vec::new(); parts.len() + 1];
         let mut free: BinaryHeap<Reverse<usize>> = BinaryHeap::new();
@@ -233,9 +247,10 @@ impl Flow {
         for (number, part) in parts.iter_mut().enumerate() {
             for expression in live[part.from..part.to].iter().flat_map(Live::expressions) {
                 expression.each_local(&mut |local| {
-                    if let Some(place) = place[local.0].filter(|_| seen[local.0] != number) {
+                    if !place[local.0].is_empty() && seen[local.0] != number {
                         seen[local.0] = number;
-                        part.reads.push(Kept { local, place });
+                        let (size, places) = (self.size[local.0], place[local.0].clone());
+                        part.reads.push(Kept { local, size, places });
                     }
                 });
             }
@@ -244,16 +259,20 @@ impl Flow {
                 if of[self.last[local.0]] <= number {
                     continue;
                 }
-                let at = free.pop().map_or(places, |Reverse(at)| at);
-                places = places.max(at + 1);
-                place[local.0] = Some(at);
-                ending[of[self.last[local.0]]].push(at);
-                part.writes.push(Kept { local, place: at });
+                for _ in 0..self.scalars(local) {
+                    let at = free.pop().map_or(places, |Reverse(at)| at);
+                    places = places.max(at + 1);
+                    place[local.0].push(at);
+                    ending[of[self.last[local.0]]].push(at);
+                }
+                let (size, places) = (self.size[local.0], place[local.0].clone());
+                part.writes.push(Kept { local, size, places });
             }
         }
         let mut results = HashMap::new();
         for result in &program.results {
-            result.each_local(&mut |local| results.extend(place[local.0].map(|place| (local, place))));
+            // Results are scalars.
+            result.each_local(&mut |local| results.extend(place[local.0].first().map(|&place| (local, place))));
         }
         (places, results)
     }
