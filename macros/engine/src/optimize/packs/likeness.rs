@@ -11,8 +11,9 @@
 //! the same order.
 //!
 //! Limbs of a platform have no coordinates of their own where their equations are solved for the platform's (`nameless`). They are looked for
-//! where limbs with coordinates do less than half of the work: hinges of a spine are as alike as such legs. Then the number of limbs is the one by which most work is repeated; from the results down, statements that stand there as often
-//! are taken for the limbs' in their order, and what only one of them reads is that one's.
+//! where limbs with coordinates do less than half of the work: hinges of a spine are as alike as such legs. Their number is the one by
+//! which most work is repeated; from the results down, statements that stand there as often are taken for the limbs' in their order, and
+//! what only one of them reads is that one's.
 
 use std::collections::hash_map::DefaultHasher;
 use std::collections::{BTreeMap, HashMap};
