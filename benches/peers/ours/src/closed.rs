@@ -3,8 +3,8 @@
 use std::ffi::CStr;
 
 use crate::abi::{Subject, subject};
-use crate::export::{MULTIPLIERS, PROGRAM};
-use crate::loops::{biped, biped_reduced, delta, delta_reduced, stewart, stewart_reduced};
+use crate::export::{MULTIPLIERS, PACKS, PROGRAM};
+use crate::loops::{biped, biped_reduced, delta, delta_reduced, stewart, stewart_packed, stewart_reduced};
 use crate::samples::{BIPED, Base, Biped, DELTA, Delta, STEWART, Sample, Stewart};
 use multibody::nalgebra::SVector;
 use multibody::{FreeRollPitchYaw, Pose, RollPitchYaw, Twist};
@@ -66,11 +66,6 @@ macro_rules! reduced {
     }};
 }
 
-fn stewart_results(all: &Stewart, accel: stewart_reduced::Velocity<f64>) -> Vec<f64> {
-    let (q, v) = (&all.2.q.platform, &all.2.v.platform);
-    accelerations(&Base::of_angles(q, v, &accel.platform), &all.4)
-}
-
 fn delta_results(all: &Delta, accel: delta_reduced::Velocity<f64>) -> Vec<f64> {
     let level = |position| FreeRollPitchYaw { position, orientation: RollPitchYaw::default() };
     let base = Base::of_angles(&level(all.2.q.plate), &level(all.2.v.plate), &level(accel.plate));
@@ -88,58 +83,101 @@ fn biped_results(all: &Biped, accel: biped_reduced::Velocity<f64>) -> Vec<f64> {
     results
 }
 
-pub const SUBJECTS: &[Subject] = &[
-    reduced!(c"stewart", stewart_reduced, STEWART, Stewart, LENGTHS[0], stewart_results),
-    multipliers!(c"stewart", stewart, STEWART, Stewart, LENGTHS[0]),
-    reduced!(c"delta", delta_reduced, DELTA, Delta, LENGTHS[1], delta_results),
-    multipliers!(c"delta", delta, DELTA, Delta, LENGTHS[1]),
-    reduced!(c"biped", biped_reduced, BIPED, Biped, LENGTHS[2], biped_results),
-    multipliers!(c"biped", biped, BIPED, Biped, LENGTHS[2]),
-    {
-        type Point =
-            (stewart_reduced::Model<f64>, stewart_reduced::State<f64>, stewart_reduced::Velocity<f64>, [f64; 6]);
+/// A state of the platform alone, for a model of it.
+macro_rules! platform {
+    ($module:ident, $all:expr) => {{
+        let (mut state, mut input) = ($module::State::default(), $module::Input::default());
+        (state.q.platform, state.v.platform) = ($all.2.q.platform, $all.2.v.platform);
+        for (leg, given) in input.legs.iter_mut().zip(&$all.3.legs) {
+            leg.thrust = given.thrust;
+        }
+        (state, input)
+    }};
+}
+
+/// The platform alone, with its legs one after the other or in packs.
+macro_rules! stewart_alone {
+    (forward, $program:expr, $module:ident) => {{
+        type Point = ($module::Model<f64>, $module::State<f64>, $module::Input<f64>, &'static Stewart);
         subject!(
             c"stewart",
-            c"leg forces",
-            PROGRAM,
+            c"forward",
+            $program,
             LENGTHS[0],
             1,
             Point,
             |x| {
                 let all = STEWART.iter().find(|all| all.4.is(x)).expect("one of ours");
-                let model = stewart_reduced::Model::default();
-                (model, all.2, model.forward_dynamics(0.0, &all.2, &all.3), all.3.legs.map(|leg| leg.thrust))
+                let (state, input) = platform!($module, all);
+                ($module::Model::default(), state, input, all)
+            },
+            (|(model, state, input, _): &Point| model.forward_dynamics(0.0, state, input)),
+            (|(.., all): &Point, _, accel: $module::Velocity<f64>| {
+                let (q, v) = (&all.2.q.platform, &all.2.v.platform);
+                accelerations(&Base::of_angles(q, v, &accel.platform), &all.4)
+            }),
+        )
+    }};
+    (forces, $program:expr, $module:ident) => {{
+        type Point = ($module::Model<f64>, $module::State<f64>, $module::Velocity<f64>, [f64; 6]);
+        subject!(
+            c"stewart",
+            c"leg forces",
+            $program,
+            LENGTHS[0],
+            1,
+            Point,
+            |x| {
+                let all = STEWART.iter().find(|all| all.4.is(x)).expect("one of ours");
+                let model = $module::Model::default();
+                let (state, input) = platform!($module, all);
+                (model, state, model.forward_dynamics(0.0, &state, &input), input.legs.map(|leg| leg.thrust))
             },
             (|(model, state, accel, _): &Point| {
-                model.inverse_dynamics(0.0, state, &stewart_reduced::Input::default(), accel).input
+                model.inverse_dynamics(0.0, state, &$module::Input::default(), accel).input
             }),
             // The forces that the accelerations came from.
-            (|(.., thrusts): &Point, _, input: stewart_reduced::Input<f64>| {
+            (|(.., thrusts): &Point, _, input: $module::Input<f64>| {
                 let found = input.legs.map(|leg| leg.thrust);
                 let error = found.iter().zip(thrusts).fold(0.0_f64, |error, (x, y)| error.max((x - y).abs()));
                 assert!(error <= 1e-10, "leg forces differ by {error:e}");
                 found.to_vec()
             }),
         )
-    },
-    {
-        type Point = (stewart_reduced::Model<f64>, stewart_reduced::State<f64>, stewart_reduced::Velocity<f64>);
+    }};
+    (strokes, $program:expr, $module:ident) => {{
+        type Point = ($module::Model<f64>, $module::State<f64>, $module::Velocity<f64>);
         subject!(
             c"stewart",
             c"strokes, their rates and accelerations",
-            PROGRAM,
+            $program,
             LENGTHS[0],
             1,
             Point,
             |x| {
                 let all = STEWART.iter().find(|all| all.4.is(x)).expect("one of ours");
-                let model = stewart_reduced::Model::default();
-                (model, all.2, model.forward_dynamics(0.0, &all.2, &all.3))
+                let model = $module::Model::default();
+                let (state, input) = platform!($module, all);
+                (model, state, model.forward_dynamics(0.0, &state, &input))
             },
             (|(model, state, accel): &Point| model.kinematics(0.0, state, accel)),
             (|_, _, found: multibody::Kinematics<f64, 6>| {
                 [found.position, found.velocity, found.acceleration].iter().flat_map(|x| x.iter().copied()).collect()
             }),
         )
-    },
+    }};
+}
+
+pub const SUBJECTS: &[Subject] = &[
+    stewart_alone!(forward, PROGRAM, stewart_reduced),
+    stewart_alone!(forward, PACKS, stewart_packed),
+    multipliers!(c"stewart", stewart, STEWART, Stewart, LENGTHS[0]),
+    reduced!(c"delta", delta_reduced, DELTA, Delta, LENGTHS[1], delta_results),
+    multipliers!(c"delta", delta, DELTA, Delta, LENGTHS[1]),
+    reduced!(c"biped", biped_reduced, BIPED, Biped, LENGTHS[2], biped_results),
+    multipliers!(c"biped", biped, BIPED, Biped, LENGTHS[2]),
+    stewart_alone!(forces, PROGRAM, stewart_reduced),
+    stewart_alone!(forces, PACKS, stewart_packed),
+    stewart_alone!(strokes, PROGRAM, stewart_reduced),
+    stewart_alone!(strokes, PACKS, stewart_packed),
 ];

@@ -52,6 +52,24 @@ multibody! {
         emit forward_dynamics, inverse_dynamics { solve_for: legs.thrust };
         emit kinematics { given: platform.pose, find: legs.stroke };
     }
+    /// The same with legs in packs.
+    pub mod stewart_packed {
+        const FEET: [Vec3; 6] = [
+            [-2.12, 1.374, 0.0], [-2.38, 1.224, 0.0], [-2.38, -1.224, 0.0], [-2.12, -1.374, 0.0], [0.0, -0.15, 0.0],
+            [0.0, 0.15, 0.0],
+        ];
+        const PINS: [Vec3; 6] = [
+            [0.17, 0.595, -0.4], [-0.6, 0.15, -0.4], [-0.6, -0.15, -0.4], [0.17, -0.595, -0.4], [0.43, -0.445, -0.4],
+            [0.43, 0.445, -0.4],
+        ];
+        const HEADING: [Scalar; 6] = [-0.75, -0.55, 0.55, 0.75, -2.85, 2.85];
+        world { gravity: -9.80665 * Z }
+        formulation { constraints: Reduced, packs: Four }
+        body platform { mass: 1.5, inertia: diag(0.08, 0.08, 0.08), coordinates: Absolute(RollPitchYaw) }
+        part legs: [leg; 6] = |i| leg { base: ground.at(FEET[i]).rotated(Z, HEADING[i]), tip: platform.at(PINS[i]) };
+        emit forward_dynamics, inverse_dynamics { solve_for: legs.thrust };
+        emit kinematics { given: platform.pose, find: legs.stroke };
+    }
 }
 
 multibody! {

@@ -8,6 +8,7 @@
 //! is a further product with ones and minus ones. So a mirrored limb costs few products, and no value is rounded otherwise; where
 //! a sum cancels to zero, its zero may have the other sign.
 
+use std::cmp::Reverse;
 use std::collections::HashMap;
 
 use crate::contracts::call::Call;
@@ -191,26 +192,36 @@ impl Unifier<'_> {
         Some(Value { expression: product, signs })
     }
 
-    /// For each operand of the first list the one of each list that goes with it: of the same form, with the same numbers and
-    /// shared values if there is one.
+    /// For each operand of the first list the one of each list that goes with it: those of one form, and of these the ones first that have
+    /// most numbers and shared values in common.
     fn aligned(&self, lists: &[&[&Expression]]) -> Option<Vec<Vec<usize>>> {
-        let first = lists.first()?;
-        let form =
-            |expression: &Expression| Some((self.likeness.signature(expression)?, self.likeness.common(expression)));
+        let forms = |list: &[&Expression]| -> Option<Vec<Form>> {
+            list.iter().map(|item| Some((self.likeness.signature(item)?, self.likeness.common(item)))).collect()
+        };
+        let first = forms(lists.first()?)?;
         let mut order: Vec<Vec<usize>> = (0..first.len()).map(|at| vec![at]).collect();
-        let wanted: Vec<Form> = first.iter().map(|item| form(item)).collect::<Option<_>>()?;
         for list in &lists[1..] {
-            let forms: Vec<Form> = list.iter().map(|item| form(item)).collect::<Option<_>>()?;
-            if forms.len() != wanted.len() {
+            let others = forms(list)?;
+            if others.len() != first.len() {
                 return None;
             }
-            let mut taken = vec![false; forms.len()];
-            for (row, wanted) in order.iter_mut().zip(&wanted) {
-                let free = |at: &usize| !taken[*at] && forms[*at].0 == wanted.0;
-                let exact = (0..forms.len()).filter(free).find(|&at| forms[at] == *wanted);
-                let at = exact.or_else(|| (0..forms.len()).find(free))?;
-                taken[at] = true;
-                row.push(at);
+            let mut pairs = Vec::new();
+            for (row, (signature, common)) in first.iter().enumerate() {
+                for (at, (_, other)) in others.iter().enumerate().filter(|(_, form)| form.0 == *signature) {
+                    let shared = common.iter().filter(|entry| other.contains(entry)).count();
+                    pairs.push((Reverse((common == other, shared)), row, at));
+                }
+            }
+            pairs.sort_unstable();
+            let (mut found, mut taken) = (vec![None; first.len()], vec![false; others.len()]);
+            for (_, row, at) in pairs {
+                if found[row].is_none() && !taken[at] {
+                    found[row] = Some(at);
+                    taken[at] = true;
+                }
+            }
+            for (row, at) in order.iter_mut().zip(found) {
+                row.push(at?);
             }
         }
         Some(order)
