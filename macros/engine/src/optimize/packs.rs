@@ -39,13 +39,21 @@ const LEAST: usize = 3;
 
 /// The program with packs; as it came where they don't pay.
 pub fn pack(program: Program, limbs: &Limbs) -> Program {
+    let counts = Likeness::counts_without(&program.statements, limbs);
+    let with: Vec<Option<usize>> = if counts.is_empty() { vec![None] } else { counts.into_iter().map(Some).collect() };
+    let packed = with.into_iter().filter_map(|without| packed(&program, limbs, without));
+    packed.min_by_key(weight).unwrap_or(program)
+}
+
+/// The program with packs of limbs that have coordinates, and of so many that have none; nothing where they don't pay.
+fn packed(program: &Program, limbs: &Limbs, without: Option<usize>) -> Option<Program> {
     let mut parted = program.clone();
     for _ in 0..ROUNDS {
-        if !part(&mut parted, limbs) {
+        if !part(&mut parted, limbs, without) {
             break;
         }
     }
-    let likeness = Likeness::new(&parted.statements, limbs);
+    let likeness = Likeness::new(&parted.statements, limbs, without);
     let mut places = proposed(&likeness);
     loop {
         let found = packs(&mut parted.clone(), &likeness, &places);
@@ -63,10 +71,7 @@ pub fn pack(program: Program, limbs: &Limbs) -> Program {
         places = keep;
     }
     let found = packs(&mut parted, &likeness, &places);
-    if !worth::pays(&program, &parted, &found) {
-        return program;
-    }
-    order::ordered(parted, &found)
+    worth::pays(program, &parted, &found).then(|| order::ordered(parted, &found))
 }
 
 /// What a program with packs or without them costs, in additions: for choices between ways to the same function.
@@ -181,8 +186,8 @@ fn packs(program: &mut Program, likeness: &Likeness<'_>, places: &[Places]) -> V
 }
 
 /// Takes out what one limb has in values of several, as statements of their own; whether there was anything.
-fn part(program: &mut Program, limbs: &Limbs) -> bool {
-    let likeness = Likeness::new(&program.statements, limbs);
+fn part(program: &mut Program, limbs: &Limbs, without: Option<usize>) -> bool {
+    let likeness = Likeness::new(&program.statements, limbs, without);
     let mut names: HashSet<String> = program.locals.iter().cloned().collect();
     let mut statements = Vec::with_capacity(program.statements.len());
     let mut added: Vec<(String, Option<std::sync::Arc<str>>)> = Vec::new();

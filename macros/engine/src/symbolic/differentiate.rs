@@ -33,6 +33,8 @@ pub struct Differentiator {
     scalars: PlaceMap<Scalar>,
     vectors: PlaceMap<Vector>,
     rotations: PlaceMap<Turning>,
+    /// What stands on one body is taken to turn with it.
+    bodies_turn: bool,
 }
 
 /// How a rotation changes, whichever way it is applied.
@@ -53,7 +55,14 @@ impl Differentiator {
     /// Seeds are (symbol, derivative of the symbol).
     pub fn new(seeds: &[(Scalar, Scalar)]) -> Self {
         let scalars = seeds.iter().map(|&(s, seed)| (s.index(), seed.flip_if(s.is_negative() && seed != Scalar::ZERO)));
-        Differentiator { scalars: scalars.collect(), vectors: PlaceMap::default(), rotations: PlaceMap::default() }
+        let (vectors, rotations) = (PlaceMap::default(), PlaceMap::default());
+        Differentiator { scalars: scalars.collect(), vectors, rotations, bodies_turn: false }
+    }
+
+    /// The same, where what several rotations turn together has one angular velocity: (A B C x)' = w x (A B C x) with w = a + A (b + B c),
+    /// which is that of a body, for all its points, and not the sum of what each rotation adds to each point.
+    pub fn with_turns_of_bodies(self) -> Self {
+        Differentiator { bodies_turn: true, ..self }
     }
 
     /// Of a node whose operands rest, but for those with a seed.
@@ -313,7 +322,53 @@ impl Differentiator {
                 let (left, right) = (g.cross(self.of_vector(a), b), g.cross(a, self.of_vector(b)));
                 g.add_vectors(left, right)
             }
-            VectorNode::Rotate(r, inner) => self.rotated(g, r, inner, self.of_vector(inner)).1,
+            VectorNode::Rotate(r, inner) => match self.turn(g, v) {
+                Some(rate) => g.cross(rate, v),
+                None => self.rotated(g, r, inner, self.of_vector(inner)).1,
+            },
+        }
+    }
+
+    /// The angular velocity of what several rotations turn, one behind the other, and what is constant before them.
+    fn turn(&self, g: &mut Graph, v: Vector) -> Option<Vector> {
+        if !self.bodies_turn {
+            return None;
+        }
+        // From the outermost on.
+        let mut chain = Vec::new();
+        let mut inner = v;
+        while let &VectorNode::Rotate(r, next) = g.vector_node(inner) {
+            self.factors(r, &mut chain);
+            inner = next;
+        }
+        let moving = chain.iter().filter(|(_, turning)| !matches!(turning, Turning::Rests)).count();
+        if moving < 2 || self.of_vector(inner) != Vector::ZERO {
+            return None;
+        }
+        let mut rate = Vector::ZERO;
+        for (r, turning) in chain.into_iter().rev() {
+            let own = match turning {
+                Turning::Rests => Vector::ZERO,
+                Turning::Axis(own) | Turning::Child(own) if r.is_transposed() => -own,
+                Turning::Axis(own) => own,
+                Turning::Child(own) => g.rotate(r, own),
+                Turning::Entries(_) | Turning::Product(..) => return None,
+            };
+            let carried = g.rotate(r, rate);
+            rate = g.add_vectors(carried, own);
+        }
+        Some(rate)
+    }
+
+    /// Adds the factors of a rotation, from the left.
+    fn factors(&self, r: Rotation, chain: &mut Vec<(Rotation, Turning)>) {
+        match self.rotations.get(&r.index()).copied().unwrap_or(Turning::Rests) {
+            Turning::Product(a, b) => {
+                let [first, second] = if r.is_transposed() { [b.transpose(), a.transpose()] } else { [a, b] };
+                self.factors(first, chain);
+                self.factors(second, chain);
+            }
+            turning => chain.push((r, turning)),
         }
     }
 

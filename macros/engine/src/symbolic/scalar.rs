@@ -530,7 +530,18 @@ impl Graph {
         if let Some(known) = self.known(print) {
             return known;
         }
+        let (a, b) = self.unturned(a, b);
         self.insert_scalar(ScalarNode::Dot(a, b), print)
+    }
+
+    /// Two vectors without the rotations that both are turned by last: their product is the same in any axes.
+    fn unturned(&self, mut a: Vector, mut b: Vector) -> (Vector, Vector) {
+        while let (&VectorNode::Rotate(r, x), &VectorNode::Rotate(s, y)) = (self.vector_node(a), self.vector_node(b))
+            && r == s
+        {
+            (a, b) = (x.flip_if(a.is_negative()), y.flip_if(b.is_negative()));
+        }
+        (a, b)
     }
 }
 

@@ -229,6 +229,126 @@ fn vectors_differentiate_as_their_components() {
     }
 }
 
+/// Chains of rotations about axes, by literals and by a quaternion, forwards and back, composed or one after the other.
+#[test]
+fn what_stands_on_a_body_turns_with_it() {
+    for seed in 0..200 {
+        let mut rng = Rng::new(seed);
+        let mut g = Graph::new();
+        let q: Vec<Scalar> = (0..4).map(|_| g.symbol()).collect();
+        let ball = g.unit_quaternion();
+        let v: Vec<Scalar> = (0..8).map(|_| g.symbol()).collect();
+        let a: Vec<Scalar> = (0..8).map(|_| g.symbol()).collect();
+        // The quaternion rests in every other one, so that the second derivative is one along its sphere.
+        let rests = seed % 2 == 0;
+        let mut points: Vec<Vector> = (0..3)
+            .map(|_| {
+                let components = [0; 3].map(|_| g.decimal(rng.decimal(-2.0, 2.0)));
+                g.vector(components)
+            })
+            .collect();
+        for _ in 0..2 + rng.below(4) {
+            let angle = g.decimal(rng.decimal(-3.0, 3.0));
+            let turn = |g: &mut Graph, rng: &mut Rng| {
+                let r = match rng.below(6) {
+                    0 => g.axis_rotation(rng.below(3), angle),
+                    1 => g.quaternion_rotation(ball),
+                    _ => g.axis_rotation(rng.below(3), q[rng.below(4)]),
+                };
+                if rng.chance(50) { r } else { r.transpose() }
+            };
+            let mut r = turn(&mut g, &mut rng);
+            if rng.chance(30) {
+                let other = turn(&mut g, &mut rng);
+                r = g.compose(r, other);
+            }
+            points = points.into_iter().map(|point| g.rotate(r, point)).collect();
+        }
+        let all: Vec<Scalar> = q.iter().copied().chain(ball).collect();
+        let moving = if rests { 4 } else { 8 };
+        let along = |from: &[Scalar], to: &[Scalar]| -> Vec<(Scalar, Scalar)> {
+            from[..moving].iter().copied().zip(to.iter().copied()).collect()
+        };
+        let roots: Vec<Scalar> = points.iter().flat_map(|&point| g.components(point)).collect();
+        let [plain, on_bodies] = [false, true].map(|on_bodies| {
+            let mut g = g.clone();
+            let mut first = Differentiator::new(&along(&all, &v));
+            if on_bodies {
+                first = first.with_turns_of_bodies();
+            }
+            let rates: Vec<Scalar> = points
+                .iter()
+                .flat_map(|&point| {
+                    let rate = first.vector(&mut g, point);
+                    g.components(rate)
+                })
+                .collect();
+            let seeds: Vec<(Scalar, Scalar)> = along(&all, &v).into_iter().chain(along(&v, &a)).collect();
+            let mut second = Differentiator::new(&seeds);
+            if on_bodies {
+                second = second.with_turns_of_bodies();
+            }
+            let accelerations = second.scalars(&mut g, &rates);
+            (g, rates, accelerations)
+        });
+        // The point, with the quaternion on its sphere and its rate along it.
+        let mut numbers: Vec<f64> = (0..24).map(|_| rng.real(-1.5, 1.5)).collect();
+        let norm = numbers[4..8].iter().map(|x| x * x).sum::<f64>().sqrt();
+        numbers[4..8].iter_mut().for_each(|x| *x /= norm);
+        let radial: f64 = (0..4).map(|k| numbers[4 + k] * numbers[12 + k]).sum();
+        (0..4).for_each(|k| numbers[12 + k] -= radial * numbers[4 + k]);
+        let dual = |at: usize| (numbers[at], if at % 8 < moving { numbers[at + 8] } else { 0.0 });
+        let duals: Vec<Dual> = (0..16).map(dual).collect();
+        let want = Evaluator::new(&g, Duals(&duals)).run(&roots);
+        let (g, rates, accelerations) = on_bodies;
+        for (got, want) in values(&g, &rates, &numbers).iter().zip(&want) {
+            assert!((got - want.1).abs() <= 1e-11, "seed {seed}: {got} for {}", want.1);
+        }
+        if rests {
+            let want = Evaluator::new(&plain.0, Duals(&duals)).run(&plain.1);
+            for (got, want) in values(&g, &accelerations, &numbers).iter().zip(&want) {
+                assert!((got - want.1).abs() <= 1e-10, "seed {seed}: {got} for {}", want.1);
+            }
+        }
+    }
+}
+
+/// Six points of a body whose orientation is roll, pitch and yaw: one angular velocity for all of them.
+#[test]
+fn points_of_a_body_share_its_angular_velocity() {
+    let mut g = Graph::new();
+    let q: Vec<Scalar> = (0..3).map(|_| g.symbol()).collect();
+    let v: Vec<Scalar> = (0..3).map(|_| g.symbol()).collect();
+    let points: Vec<Vector> = (1..7)
+        .map(|k| {
+            let components = [k, 2 * k - 7, 5 - k].map(|x| g.integer(x));
+            let mut point = g.vector(components);
+            for (axis, &angle) in q.iter().enumerate() {
+                let r = g.axis_rotation(axis, angle);
+                point = g.rotate(r, point);
+            }
+            point
+        })
+        .collect();
+    let seeds: Vec<(Scalar, Scalar)> = q.iter().copied().zip(v).collect();
+    let [plain, on_bodies] = [false, true].map(|on_bodies| {
+        let mut g = g.clone();
+        let along = Differentiator::new(&seeds);
+        let mut along = if on_bodies { along.with_turns_of_bodies() } else { along };
+        let rates: Vec<Scalar> = points
+            .iter()
+            .flat_map(|&point| {
+                let rate = along.vector(&mut g, point);
+                g.components(rate)
+            })
+            .collect();
+        let mut lowering = Lowering::new(&g);
+        let roots = lowering.run(&rates);
+        lowering.to.cost(&roots).weight()
+    });
+    assert!(10 * on_bodies < 9 * plain, "{on_bodies} of {plain}");
+}
+
 fn symbol_number(g: &Graph, s: Scalar) -> usize {
     (0..).find(|&id| g.symbol_handle(SymbolId(id)) == Some(s)).unwrap()
 }

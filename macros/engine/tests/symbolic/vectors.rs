@@ -3,6 +3,7 @@
 use crate::rng::Rng;
 use multibody_engine::symbolic::evaluate::{Evaluator, Real};
 use multibody_engine::symbolic::graph::{Graph, Rotation, Scalar, SymbolId, Vector};
+use multibody_engine::symbolic::lower::Lowering;
 
 fn values(g: &mut Graph, v: Vector, point: &[f64]) -> [f64; 3] {
     let components = g.components(v);
@@ -69,5 +70,33 @@ fn composed_rotations_turn_as_their_factors() {
         assert_near(values(&mut g, turned, &point), want);
         let back = g.rotate(whole.transpose(), turned);
         assert_near(values(&mut g, back, &point), [1.0, -2.0, 3.0]);
+    }
+}
+
+/// A scalar product is the same in any axes, and is written in those that need no rotation.
+#[test]
+fn a_product_of_vectors_forgets_what_turns_both() {
+    for signs in 0..4 {
+        let mut g = Graph::new();
+        let symbols: Vec<Scalar> = (0..8).map(|_| g.symbol()).collect();
+        let first = g.vector([symbols[0], symbols[1], symbols[2]]);
+        let second = g.vector([symbols[3], symbols[4], symbols[5]]);
+        let (tilt, turn) = (g.axis_rotation(1, symbols[6]), g.axis_rotation(2, symbols[7]));
+        let mut turned = [first, second].map(|v| {
+            let v = g.rotate(tilt, v);
+            g.rotate(turn.transpose(), v)
+        });
+        (0..2).filter(|k| signs >> k & 1 == 1).for_each(|k| turned[k] = -turned[k]);
+        let dot = g.dot(turned[0], turned[1]);
+        let mut lowering = Lowering::new(&g);
+        let roots = lowering.run(&[dot]);
+        let cost = lowering.to.cost(&roots);
+        assert_eq!((cost.add, cost.mul, cost.sincos), (2, 3, 0), "{cost:?}");
+        let point = [0.3, -0.7, 1.1, 0.9, -1.3, 0.4, 0.8, -2.1];
+        let symbols = |id: SymbolId| point[id.0];
+        let got = Evaluator::new(&g, Real { symbols: &symbols }).run(&[dot])[0];
+        let sign = if signs == 1 || signs == 2 { -1.0 } else { 1.0 };
+        let want: f64 = (0..3).map(|k| point[k] * point[k + 3]).sum();
+        assert!((got - sign * want).abs() < 1e-14, "{got} for {want}");
     }
 }

@@ -69,7 +69,7 @@ impl Equations<'_> {
         // Rates: J x' = -E', with everything on the tree.
         let unknowns: Vec<(Scalar, Scalar)> = symbols.iter().map(|s| (s[1], s[2])).collect();
         let derivatives: Vec<(Scalar, Scalar)> =
-            equations.iter().map(|&equation| self.implicit_rates(equation, &unknowns)).collect();
+            equations.iter().map(|&equation| self.implicit_rates(equation, &unknowns, false)).collect();
         let first: Vec<Scalar> = derivatives.iter().map(|d| -d.0).collect();
         let second: Vec<Scalar> = derivatives.iter().map(|d| -d.1).collect();
         let [rates, accelerations] = self.solve_rates(size, &matrix, [&first, &second], Self::eliminate);

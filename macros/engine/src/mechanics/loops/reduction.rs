@@ -347,7 +347,7 @@ impl Equations<'_> {
         let name = names::of_freedom(self.scene.model, coordinate, "gap");
         let (mut rates, mut accelerations) = (Vec::new(), Vec::new());
         for &Balance { equation, inverse_slope } in balances {
-            let (first, second) = self.implicit_rates(equation, &unknowns);
+            let (first, second) = self.implicit_rates(equation, &unknowns, true);
             self.g.under("Velocities of what follows.", |g| g.label(first, || format!("{name}_rate")));
             self.g.under("Accelerations of what follows.", |g| g.label(second, || format!("{name}_accel")));
             rates.push(-self.g.mul(inverse_slope, first));
@@ -370,14 +370,19 @@ impl Equations<'_> {
         &mut self,
         equation: Scalar,
         unknowns: &[(Scalar, Scalar)],
+        on_bodies: bool,
     ) -> (Scalar, Scalar) {
+        let along = |seeds: &[(Scalar, Scalar)]| match on_bodies {
+            true => Differentiator::new(seeds).with_turns_of_bodies(),
+            false => Differentiator::new(seeds),
+        };
         let seeds = self.seeds(1);
-        let rate = Differentiator::new(&seeds).scalar(&mut self.g, equation);
+        let rate = along(&seeds).scalar(&mut self.g, equation);
         let rest: Vec<(Scalar, Scalar)> = unknowns.iter().map(|u| (u.0, Scalar::ZERO)).collect();
         let rest = self.map(&rest);
         let first = self.g.substitute(&[rate], &rest)[0];
         let all = self.seeds(2);
-        let second = Differentiator::new(&all).scalar(&mut self.g, rate);
+        let second = along(&all).scalar(&mut self.g, rate);
         let rest: Vec<(Scalar, Scalar)> = unknowns.iter().map(|u| (u.1, Scalar::ZERO)).collect();
         let rest = self.map(&rest);
         let second = self.g.substitute(&[second], &rest)[0];

@@ -11,8 +11,8 @@
 //! the same order.
 //!
 //! Limbs of a platform have no coordinates of their own where their equations are solved for the platform's (`nameless`). They are looked for
-//! where limbs with coordinates do less than half of the work: hinges of a spine are as alike as such legs. Their number is the one by
-//! which most work is repeated; from the results down, statements that stand there as often are taken for the limbs' in their order, and
+//! where limbs with coordinates do less than half of the work: hinges of a spine are as alike as such legs. Their number is one by
+//! which much work is repeated: not always most, since what each leg does twice is repeated twelve times by six; from the results down, statements that stand there as often are taken for the limbs' in their order, and
 //! what only one of them reads is that one's.
 
 use std::collections::hash_map::DefaultHasher;
@@ -26,6 +26,8 @@ use crate::optimize::program::{Expression, Local, Statement};
 
 /// Fewer without coordinates are no limbs, nor are more.
 const NAMELESS_LIMBS: std::ops::RangeInclusive<usize> = 3..=16;
+/// So many numbers of such limbs are tried.
+const COUNTS: usize = 3;
 /// The set of limbs without coordinates.
 const NAMELESS: usize = usize::MAX;
 
@@ -109,17 +111,43 @@ impl Leaves {
 }
 
 impl<'a> Likeness<'a> {
-    pub(super) fn new(statements: &[Statement], limbs: &'a Limbs) -> Likeness<'a> {
+    /// With limbs that have coordinates, and with so many that have none.
+    pub(super) fn new(statements: &[Statement], limbs: &'a Limbs, without: Option<usize>) -> Likeness<'a> {
         let by_coordinates = Likeness::with(statements, limbs, &vec![None; statements.len()]);
-        // What looks like limbs without coordinates may be a spine's, on which those with coordinates stand.
-        let all: usize = statements.iter().map(leaves).sum();
-        if 2 * by_coordinates.work(statements) > all {
-            return by_coordinates;
-        }
-        match by_coordinates.nameless(statements) {
+        match without.map(|count| by_coordinates.nameless(statements, count)) {
             Some(given) => Likeness::with(statements, limbs, &given),
             None => by_coordinates,
         }
+    }
+
+    /// How many limbs without coordinates there may be, the likeliest first; none where limbs with coordinates do most of the work: what looks
+    /// like others may be a spine's, on which these stand.
+    pub(super) fn counts_without(statements: &[Statement], limbs: &'a Limbs) -> Vec<usize> {
+        let by_coordinates = Likeness::new(statements, limbs, None);
+        let all: usize = statements.iter().map(leaves).sum();
+        if 2 * by_coordinates.work(statements) > all {
+            return Vec::new();
+        }
+        let mut work: BTreeMap<usize, usize> = BTreeMap::new();
+        for members in by_coordinates.alike_without().values().filter(|list| NAMELESS_LIMBS.contains(&list.len())) {
+            let each = members.iter().map(|&number| leaves(&statements[number]));
+            *work.entry(members.len()).or_default() += each.sum::<usize>();
+        }
+        let mut counts: Vec<usize> = work.keys().copied().collect();
+        counts.sort_by_key(|count| std::cmp::Reverse(work[count]));
+        counts.truncate(COUNTS);
+        counts
+    }
+
+    /// Statements that belong to nobody, by their signatures.
+    fn alike_without(&self) -> BTreeMap<u64, Vec<usize>> {
+        let mut alike: BTreeMap<u64, Vec<usize>> = BTreeMap::new();
+        for (number, form) in self.forms.iter().enumerate() {
+            if let (Some(form), Owner::Nobody) = (form, self.owners[number]) {
+                alike.entry(*form).or_default().push(number);
+            }
+        }
+        alike
     }
 
     /// How much stands in groups.
@@ -143,20 +171,9 @@ impl<'a> Likeness<'a> {
         found
     }
 
-    /// Limbs that have no coordinates of their own, if there are any.
-    fn nameless(&self, statements: &[Statement]) -> Option<Vec<Option<Limb>>> {
-        let mut alike: BTreeMap<u64, Vec<usize>> = BTreeMap::new();
-        for (number, form) in self.forms.iter().enumerate() {
-            if let (Some(form), Owner::Nobody) = (form, self.owners[number]) {
-                alike.entry(*form).or_default().push(number);
-            }
-        }
-        let mut work: BTreeMap<usize, usize> = BTreeMap::new();
-        for members in alike.values().filter(|members| NAMELESS_LIMBS.contains(&members.len())) {
-            let each = members.iter().map(|&number| leaves(&statements[number]));
-            *work.entry(members.len()).or_default() += each.sum::<usize>();
-        }
-        let count = work.iter().max_by_key(|entry| *entry.1).map(|entry| *entry.0)?;
+    /// The limbs of statements, if so many have no coordinates of their own.
+    fn nameless(&self, statements: &[Statement], count: usize) -> Vec<Option<Limb>> {
+        let alike = self.alike_without();
         let mut readers: Vec<Vec<usize>> = vec![Vec::new(); statements.len()];
         for (number, statement) in statements.iter().enumerate() {
             for expression in statement.expressions() {
@@ -184,7 +201,7 @@ impl<'a> Likeness<'a> {
                 }
             }
         }
-        Some(given)
+        given
     }
 
     /// Statements by depth, in their order.

@@ -121,7 +121,7 @@ impl Equations<'_> {
     pub(in crate::mechanics) fn row_rates(&mut self, row: Row) -> (Scalar, Scalar) {
         let Some(rate) = self.rate_expression(row) else {
             let residual = self.row(row);
-            return self.implicit_rates(residual, &[]);
+            return self.implicit_rates(residual, &[], false);
         };
         let mut seeds = self.seeds(2);
         let read = self.g.read_by(&[rate], &self.scene.symbols.states);
