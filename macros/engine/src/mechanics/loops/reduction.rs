@@ -282,7 +282,7 @@ impl Equations<'_> {
         let inverse = self.g.reciprocal(slope);
         let position = -self.g.mul(inverse, rest);
         let balance = Balance { equation: residual, inverse_slope: inverse };
-        Some(self.implicit(unknown, position, &[balance], &[symbol]))
+        Some(self.implicit(unknown, position, &[balance], &[symbol], false))
     }
 
     /// What the user's formulas give.
@@ -292,7 +292,7 @@ impl Equations<'_> {
             let symbol = self.coordinate_symbols(unknown)[0];
             let equation = self.g.sub(symbol, position);
             let balance = Balance { equation, inverse_slope: Scalar::ONE };
-            self.implicit(unknown, position, &[balance], &[symbol])
+            self.implicit(unknown, position, &[balance], &[symbol], false)
         });
         definitions.collect()
     }
@@ -330,24 +330,25 @@ impl Equations<'_> {
             }
             reduction.notes.push(format!("`{}`: {}", coordinate_name(model, unknown), solved.how));
             self.g.begin(before);
-            definitions.push(self.implicit(unknown, position, &solved.balances, &solved.together));
+            definitions.push(self.implicit(unknown, position, &solved.balances, &solved.together, true));
         }
         Ok(definitions)
     }
 
-    /// Rate and acceleration from equations with known slopes, which give some unknowns together.
+    /// Rate and acceleration from equations with known slopes, which give some unknowns together; `on_bodies` is that of [`Self::implicit_rates`].
     fn implicit(
         &mut self,
         coordinate: Coordinate,
         position: Scalar,
         balances: &[Balance],
         together: &[Scalar],
+        on_bodies: bool,
     ) -> Definition {
         let unknowns = self.rates_of(together);
         let name = names::of_freedom(self.scene.model, coordinate, "gap");
         let (mut rates, mut accelerations) = (Vec::new(), Vec::new());
         for &Balance { equation, inverse_slope } in balances {
-            let (first, second) = self.implicit_rates(equation, &unknowns, true);
+            let (first, second) = self.implicit_rates(equation, &unknowns, on_bodies);
             self.g.under("Velocities of what follows.", |g| g.label(first, || format!("{name}_rate")));
             self.g.under("Accelerations of what follows.", |g| g.label(second, || format!("{name}_accel")));
             rates.push(-self.g.mul(inverse_slope, first));
@@ -365,7 +366,8 @@ impl Equations<'_> {
         all.filter(|((q, _), _)| positions.contains(q)).map(|((_, &v), &a)| (v, a)).collect()
     }
 
-    /// First derivative by time of an equation with the unknowns at rest, and second one with their accelerations zero.
+    /// First derivative by time of an equation with the unknowns at rest, and second one with their accelerations zero. Closed forms read points of
+    /// bodies, so they are differentiated `on_bodies`, by angular velocities of these.
     pub(in crate::mechanics) fn implicit_rates(
         &mut self,
         equation: Scalar,
