@@ -195,7 +195,12 @@ fn before_turning(
     let (turn, _) = tree.joint_motion(g, link, &tree.velocity);
     let (faster, _) = tree.joint_motion(g, link, acceleration);
     let gyro = g.cross(w, turn);
-    LinkMotion { angular: g.add_vectors(w, turn), angular_rate: g.sum_vectors(&[dw, gyro, faster]), linear_rate }
+    LinkMotion {
+        angular: g.add_vectors(w, turn),
+        angular_rate: g.sum_vectors(&[dw, gyro, faster]),
+        linear_rate,
+        kept: None,
+    }
 }
 
 /// Adds what a wrench at a link takes.

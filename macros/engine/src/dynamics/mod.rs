@@ -4,7 +4,7 @@
 //! [`tree`] is what all recursions walk. Kinematics: [`kinematics`] and [`velocities`] in link axes, [`columns`] and
 //! [`world`] in those of one link or the world, [`point_kinematics`] for single points. Dynamics: [`newton_euler`],
 //! [`lumped`] (the same over links that turn together), [`composite`], [`composite_at_root`] (the same for long chains),
-//! [`articulated`], [`momentum`], [`energy`]; [`regroup`], [`shared_axes`] and
+//! [`articulated`], [`momentum`], [`energy`]; [`regroup`], [`turned_ends`], [`shared_axes`] and
 //! [`floating_bases`] say how a tree is written so that they cost less; [`saddle`] solves systems with constraints, in an
 //! order that [`elimination`] finds.
 
@@ -17,6 +17,7 @@ pub mod elimination;
 pub mod energy;
 pub mod floating_bases;
 pub mod inertia;
+mod kept_masses;
 pub mod kinematics;
 pub mod lumped;
 pub mod momentum;
@@ -26,5 +27,6 @@ pub mod regroup;
 pub mod saddle;
 pub mod shared_axes;
 pub mod tree;
+pub mod turned_ends;
 pub mod velocities;
 pub mod world;

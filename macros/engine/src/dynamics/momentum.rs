@@ -51,7 +51,12 @@ pub(crate) fn swept(g: &mut Graph, tree: &Tree, moving: &[LinkVelocity], momenta
 
 /// Accelerations from rest to these velocities in a second: the wrenches that they take are the momenta.
 pub(crate) fn from_rest(moving: &[LinkVelocity]) -> Vec<LinkMotion> {
-    let motion = |&(angular, linear)| LinkMotion { angular: Vector::ZERO, angular_rate: angular, linear_rate: linear };
+    let motion = |&(angular, linear)| LinkMotion {
+        angular: Vector::ZERO,
+        angular_rate: angular,
+        linear_rate: linear,
+        kept: None,
+    };
     moving.iter().map(motion).collect()
 }
 

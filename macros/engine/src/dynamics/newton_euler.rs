@@ -40,39 +40,17 @@ pub fn inertial_wrench(g: &mut Graph, link: &Link, motion: &LinkMotion) -> Wrenc
     let first = g.vector(inertia.first);
     let lever = g.cross(first, motion.linear_rate);
     let lever = if broken(Break::LeverSign) { -lever } else { lever };
-    let spin = axial(g, &field, &inertia.second);
+    let spin = spin_moment(g, &field, &inertia.second);
     Wrench { moment: g.add_vectors(lever, spin), force }
 }
 
-/// Moment of a distribution that turns. Where two second moments are equal, both entries of U between them have one
-/// factor: their difference, 2 dw.
+/// Moment of a distribution that turns: axial vector of U D - (U D)^T. Component i is the sum over k of U_bk D_ka - U_ak D_kb, with
+/// (i, a, b) cyclic. Where two second moments are equal, or opposite, both entries of U between them have one factor: their
+/// difference, 2 dw_i, or their sum, 2 w_a w_b.
 pub fn spin_moment(g: &mut Graph, field: &Field, second: &[Scalar; 6]) -> Vector {
-    let mut rest = *second;
-    let mut round = [Scalar::ZERO; 3];
-    for (i, round) in round.iter_mut().enumerate() {
-        let (a, b) = ((i + 1) % 3, (i + 2) % 3);
-        if second[a] == second[b] {
-            let whole = g.add(second[a], second[b]);
-            *round = g.mul(whole, field.angular_rate(i));
-        }
-    }
-    let plain = axial(g, field, second);
-    let plain = g.components(plain);
-    rest[..3].fill(Scalar::ZERO);
-    let mixed = axial(g, field, &rest);
-    let mixed = g.components(mixed);
     let components = [0, 1, 2].map(|i| {
         let (a, b) = ((i + 1) % 3, (i + 2) % 3);
-        if second[a] == second[b] { g.add(mixed[i], round[i]) } else { plain[i] }
-    });
-    g.vector(components)
-}
-
-/// Axial vector of U D - (U D)^T: component i is the sum over k of U_bk D_ka - U_ak D_kb, with (i, a, b) cyclic.
-fn axial(g: &mut Graph, field: &Field, second: &[Scalar; 6]) -> Vector {
-    let components = [0, 1, 2].map(|i| {
-        let (a, b) = ((i + 1) % 3, (i + 2) % 3);
-        let mut terms = Vec::with_capacity(6);
+        let mut terms = Vec::with_capacity(5);
         let mut term = |g: &mut Graph, d: Scalar, u: &dyn Fn(&mut Graph) -> Scalar, minus: bool| {
             if d != Scalar::ZERO {
                 let u = u(g);
@@ -80,8 +58,15 @@ fn axial(g: &mut Graph, field: &Field, second: &[Scalar; 6]) -> Vector {
                 terms.push(if minus { -product } else { product });
             }
         };
-        term(g, second[a], &|g| field.entry(g, b, a), false);
-        term(g, second[b], &|g| field.entry(g, a, b), true);
+        let twice = g.add(second[a], second[a]);
+        if second[a] == second[b] {
+            term(g, twice, &|_| field.angular_rate(i), false);
+        } else if second[a] == -second[b] {
+            term(g, twice, &|g| field.product(g, a, b), false);
+        } else {
+            term(g, second[a], &|g| field.entry(g, b, a), false);
+            term(g, second[b], &|g| field.entry(g, a, b), true);
+        }
         term(g, second[entry(i, a)], &|g| field.entry(g, b, i), false);
         term(g, second[entry(i, b)], &|g| field.entry(g, a, i), true);
         term(g, second[entry(a, b)], &|g| field.difference(g, b, a), false);

@@ -12,6 +12,7 @@
 use crate::symbolic::graph::{Graph, Scalar};
 
 use super::inertia::Inertia;
+use super::kept_masses::keep_mass;
 use super::tree::{Motion, Tree};
 
 /// Regroups from the leaves to the ground.
@@ -19,11 +20,24 @@ pub fn regroup(g: &mut Graph, tree: &Tree) -> Tree {
     regroup_but(g, tree, false, &[])
 }
 
+/// The same for recursions from link to link: some mass stays at hinges ([`super::kept_masses`]), and of what a hinge turns into
+/// itself a rotor is left, which turns about the hinge and has no moment of inertia across it.
+pub fn regroup_keeping(g: &mut Graph, tree: &Tree) -> Tree {
+    regroup_as(g, tree, false, &[], true)
+}
+
 /// The same; second moments that a hinge turns into themselves may stay whole where they stand, and links may keep all
 /// that they have.
 pub fn regroup_but(g: &mut Graph, tree: &Tree, whole: bool, keep: &[usize]) -> Tree {
+    regroup_as(g, tree, whole, keep, false)
+}
+
+fn regroup_as(g: &mut Graph, tree: &Tree, whole: bool, keep: &[usize], masses: bool) -> Tree {
     let mut tree = tree.clone();
     for index in (0..tree.links.len()).rev().filter(|index| !keep.contains(index)) {
+        if masses {
+            keep_mass(g, &mut tree, index);
+        }
         let link = tree.links[index].clone();
         let mut kept = unmoved(&link.inertia, link.motion);
         if let Motion::Revolute(axis) = link.motion
@@ -31,6 +45,12 @@ pub fn regroup_but(g: &mut Graph, tree: &Tree, whole: bool, keep: &[usize]) -> T
             && is_round(&link.inertia, axis)
         {
             kept.second[axis] = Scalar::ZERO;
+        }
+        if let Motion::Revolute(axis) = link.motion
+            && masses
+            && is_round(&link.inertia, axis)
+        {
+            kept.second[axis] = g.add(kept.second[axis], link.inertia.second[(axis + 1) % 3]);
         }
         if kept.is_zero() {
             continue;

@@ -106,6 +106,8 @@ pub struct Tree {
     pub gravity: Option<[Scalar; 3]>,
     /// What is fixed to the ground: it only counts in the potential energy.
     pub ground: Option<Inertia>,
+    /// Columns of U that neighbours have in common are turned from link to link ([`super::kinematics`]).
+    pub turns_columns: bool,
 }
 
 impl Tree {

@@ -31,6 +31,17 @@ pub enum Method {
     Articulated,
 }
 
+/// How motions and wrenches pass from link to link.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Passing {
+    /// In the axes of the joints, with base inertial parameters.
+    Plain,
+    /// Columns of U that neighbours have in common are turned, and so are last links.
+    Columns,
+    /// Some mass stays at hinges as well. Of efforts alone: where more is made of them, fewer moments are better.
+    Masses,
+}
+
 /// Choices of a candidate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Choices {
@@ -38,6 +49,7 @@ pub struct Choices {
     pub method: Method,
     /// Common axes for parallel hinges in the recursions of the dynamics.
     pub axes: Option<SharedAxes>,
+    pub passing: Passing,
     /// In which axes loops are closed.
     pub writing: Writing,
     /// Inverse dynamics by [`crate::dynamics::lumped`].
@@ -52,6 +64,7 @@ impl Choices {
         style: Style::Nested,
         method: Method::Composite,
         axes: None,
+        passing: Passing::Plain,
         writing: Writing::PLAIN,
         lumped: false,
         for_readers: false,

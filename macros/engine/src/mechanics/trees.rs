@@ -5,19 +5,22 @@
 use std::rc::Rc;
 
 use crate::dynamics::floating_bases::floating_bases;
-use crate::dynamics::regroup::{regroup, regroup_but};
+use crate::dynamics::regroup::{regroup, regroup_but, regroup_keeping};
 use crate::dynamics::shared_axes::{Shared, share_axes};
 use crate::dynamics::tree::Tree;
+use crate::dynamics::turned_ends::turn_ends;
 use crate::symbolic::graph::Vector;
 
 use super::equations::Equations;
-use super::scene::Method;
+use super::scene::{Method, Passing};
 
 #[derive(Clone, Default)]
 pub(super) struct Trees {
     regrouped: Option<Rc<Tree>>,
     /// The regrouped tree in the axes that the dynamics is written in.
     shared: Option<Rc<Shared>>,
+    /// The same with some mass at hinges.
+    passed: Option<Rc<Shared>>,
 }
 
 impl Equations<'_> {
@@ -45,13 +48,38 @@ impl Equations<'_> {
             }
             Method::Composite | Method::Floating => self.regrouped(),
         };
-        let shared = self.scene.way.axes.and_then(|axes| share_axes(&mut self.g, &tree, axes));
-        let shared = match shared {
-            Some(shared) => shared,
-            None => Shared::own(&mut self.g, &tree),
-        };
-        let shared = Rc::new(shared);
+        let shared = Rc::new(self.in_axes(&tree));
         self.caches.trees.shared = Some(Rc::clone(&shared));
+        shared
+    }
+
+    /// The same for what passes motions and wrenches from link to link: some mass stays at hinges.
+    pub(super) fn passed(&mut self) -> Rc<Shared> {
+        if self.scene.way.method == Method::Articulated || self.scene.way.passing != Passing::Masses {
+            return self.shared();
+        }
+        if let Some(passed) = &self.caches.trees.passed {
+            return Rc::clone(passed);
+        }
+        let tree = regroup_keeping(&mut self.g, &self.scene.mechanism.tree);
+        let passed = Rc::new(self.in_axes(&tree));
+        self.caches.trees.passed = Some(Rc::clone(&passed));
+        passed
+    }
+
+    fn in_axes(&mut self, tree: &Tree) -> Shared {
+        let free = self.scene.way.passing != Passing::Plain;
+        let g = &mut self.g;
+        let turned = if free { turn_ends(g, tree) } else { None };
+        let tree = turned.as_ref().map_or(tree, |(tree, _)| tree);
+        let shared = self.scene.way.axes.and_then(|axes| share_axes(g, tree, axes));
+        let mut shared = shared.unwrap_or_else(|| Shared::own(g, tree));
+        if let Some((_, ends)) = &turned {
+            for (turn, &end) in shared.turns.iter_mut().zip(ends) {
+                *turn = g.compose(*turn, end);
+            }
+        }
+        shared.tree.turns_columns = free;
         shared
     }
 

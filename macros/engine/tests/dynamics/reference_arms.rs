@@ -3,9 +3,12 @@
 
 use crate::arms::{ARMS, Arm, flat, load, read};
 use crate::formulations;
-use multibody_engine::dynamics::regroup::regroup;
+use multibody_engine::dynamics::regroup::{regroup, regroup_keeping};
+use multibody_engine::dynamics::tree::Tree;
+use multibody_engine::dynamics::turned_ends::turn_ends;
 use multibody_engine::symbolic::evaluate::{Evaluator, Real};
-use multibody_engine::symbolic::graph::{Scalar, SymbolId};
+use multibody_engine::symbolic::graph::{Graph, Scalar, SymbolId};
+use multibody_engine::symbolic::lower::Lowering;
 
 /// Relative to the largest entry of a sample's vector.
 const TOLERANCE: f64 = 1e-12;
@@ -39,17 +42,15 @@ const FUNCTIONS: [Function; 6] = [
     ("articulated body", "aba", |arm| formulations::by_articulated(&mut arm.graph, &arm.tree, &arm.efforts)),
 ];
 
-/// `regrouped`: with base inertial parameters, as models are compiled, or link by link. Every function has a graph of its
+/// The tree in another form, with the same motions and efforts. Every function has a graph of its
 /// own: in a common one, equal results are one node, and the formulation that comes second would not be tested.
-fn check(name: &str, regrouped: bool) {
+fn check(name: &str, form: fn(&mut Graph, &Tree) -> Tree) {
     let samples = read(name, "samples");
     let samples = samples["samples"].as_array().unwrap();
     assert_eq!(samples.len(), 20);
     for (what, key, derive) in FUNCTIONS {
         let mut arm = load(name);
-        if regrouped {
-            arm.tree = regroup(&mut arm.graph, &arm.tree);
-        }
+        arm.tree = form(&mut arm.graph, &arm.tree);
         let roots = derive(&mut arm);
         let worst = samples.iter().fold(0.0_f64, |worst, sample| {
             let point = ["q", "v", "a", "tau"].map(|key| flat(&sample[key])).concat();
@@ -64,10 +65,55 @@ fn check(name: &str, regrouped: bool) {
 
 #[test]
 fn base_parameters() {
-    ARMS.iter().for_each(|name| check(name, true));
+    ARMS.iter().for_each(|name| check(name, regroup));
 }
 
 #[test]
 fn link_by_link() {
-    ARMS.iter().for_each(|name| check(name, false));
+    ARMS.iter().for_each(|name| check(name, |_, tree| tree.clone()));
+}
+
+/// As efforts are derived: masses at hinges, last links turned, columns of U in common.
+fn passed(g: &mut Graph, tree: &Tree) -> Tree {
+    let tree = regroup_keeping(g, tree);
+    let tree = turn_ends(g, &tree).map_or(tree, |(turned, _)| turned);
+    Tree { turns_columns: true, ..tree }
+}
+
+#[test]
+fn passed_from_link_to_link() {
+    ARMS.iter().for_each(|name| check(name, passed));
+}
+
+/// What each of the three saves of an arm's inverse dynamics, before any pass has seen it.
+#[test]
+fn what_passing_saves() {
+    let columns = |g: &mut Graph, tree: &Tree| Tree { turns_columns: true, ..regroup(g, tree) };
+    let masses = |g: &mut Graph, tree: &Tree| Tree { turns_columns: true, ..regroup_keeping(g, tree) };
+    let forms: [fn(&mut Graph, &Tree) -> Tree; 4] = [regroup, columns, masses, passed];
+    let weights = forms.map(|form| {
+        let Arm { mut graph, tree, .. } = load("panda");
+        let tree = form(&mut graph, &tree);
+        let efforts = formulations::inverse_dynamics(&mut graph, &tree, &tree.velocity, &tree.acceleration);
+        let mut lowering = Lowering::new(&graph);
+        let roots = lowering.run(&efforts);
+        lowering.to.cost(&roots).weight()
+    });
+    assert!(weights.is_sorted_by(|one, next| one > next), "{weights:?}");
+    assert!(weights[3] + 40 <= weights[0], "{weights:?}");
+}
+
+/// A mass at the last hinge leaves nothing of a component of its carrier's first moment; at a hinge that is too near it would have
+/// to be too large.
+#[test]
+fn masses_at_hinges() {
+    for (length, keeps) in [(0.088, true), (0.001, false)] {
+        let Arm { graph: mut g, mut tree, .. } = load("panda");
+        let length = g.decimal(length);
+        tree.links[6].offset = g.along(0, length);
+        let tree = regroup_keeping(&mut g, &tree);
+        let (carrier, last) = (&tree.links[5].inertia, &tree.links[6].inertia);
+        assert_eq!([carrier.first[0] == Scalar::ZERO, last.mass != Scalar::ZERO], [keeps; 2]);
+        assert_ne!(carrier.first[1], Scalar::ZERO);
+    }
 }

@@ -166,7 +166,14 @@ impl Machine {
             }
             ends.extend(parent);
         }
-        let tree = Tree { links, velocity, acceleration, gravity: Some([zero, zero, -gravity]), ground: None };
+        let tree = Tree {
+            links,
+            velocity,
+            acceleration,
+            gravity: Some([zero, zero, -gravity]),
+            ground: None,
+            turns_columns: false,
+        };
         let legs = ends.into_iter().zip(&pins).map(|(end, &pin)| {
             let chain = detect(&mut g, &tree, end, triple::ZERO).expect("a strut");
             assert_eq!(chain.zero, one);

@@ -6,7 +6,7 @@ use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::reduction::Reduction;
 use crate::mechanics::results::linearisation::Accumulation;
-use crate::mechanics::scene::Method;
+use crate::mechanics::scene::{Method, Passing};
 use crate::mechanics::translate::dependencies::Dependencies;
 use crate::model::types::JointId;
 
@@ -58,10 +58,16 @@ impl<'m> Deriving<'m> {
         let sides = sides.iter().filter(|side| !is_large || side.0 == Accumulation::Reverse);
         let mut candidates = Vec::new();
         for &(side, names) in sides {
-            candidates.extend(self.in_all_axes(names, Method::Composite, kept, |e| {
-                let reduction = e.reduce()?;
-                f(e, &reduction, side)
-            })?);
+            candidates.extend(self.passed_in_all_axes(
+                names,
+                Method::Composite,
+                Passing::Columns,
+                kept,
+                &mut |e: &mut Equations<'m>| {
+                    let reduction = e.reduce()?;
+                    f(e, &reduction, side)
+                },
+            )?);
         }
         Ok(self.promising(candidates))
     }

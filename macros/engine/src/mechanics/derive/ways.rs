@@ -13,7 +13,7 @@ use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::constraints;
 use crate::mechanics::loops::reduction::Reduction;
-use crate::mechanics::scene::{Choices, Method, Scene};
+use crate::mechanics::scene::{Choices, Method, Passing, Scene};
 use crate::mechanics::translate::division;
 use crate::mechanics::translate::symbols::Symbols;
 use crate::model::site::Sited;
@@ -68,11 +68,29 @@ impl<'m> Deriving<'m> {
         kept: &[JointId],
         mut f: impl FnMut(&mut Equations<'m>) -> Found,
     ) -> Result<Vec<Candidate>, Vec<Complaint>> {
+        let mut candidates = self.passed_in_all_axes(names, method, Passing::Masses, kept, &mut f)?;
+        // What has few moments may be better off as it is.
+        if self.is_open() && freedoms(self.model) <= MOST_COMPOSITE {
+            candidates.extend(self.candidate(names[0], Choices { method, ..self.way() }, kept, &mut f)?);
+        }
+        Ok(candidates)
+    }
+
+    /// The same, passed from link to link in one way. Where loops are closed all is plain: their equations read the same sines.
+    pub(super) fn passed_in_all_axes(
+        &mut self,
+        names: &[&'static str],
+        method: Method,
+        passing: Passing,
+        kept: &[JointId],
+        f: &mut impl FnMut(&mut Equations<'m>) -> Found,
+    ) -> Result<Vec<Candidate>, Vec<Complaint>> {
+        let passing = if self.is_open() { passing } else { Passing::Plain };
         // Common axes pay where a matrix is factored or passed on; beyond that size each way costs too much time.
         let ways = if freedoms(self.model) > MOST_COMPOSITE { 1 } else { AXES.len() };
         let mut candidates = Vec::new();
         for (axes, &name) in AXES.into_iter().zip(names).take(ways) {
-            candidates.extend(self.candidate(name, Choices { method, axes, ..self.way() }, kept, &mut f)?);
+            candidates.extend(self.candidate(name, Choices { method, axes, passing, ..self.way() }, kept, f)?);
         }
         Ok(candidates)
     }

@@ -41,7 +41,7 @@ impl Equations<'_> {
         if self.scene.way.lumped {
             return self.lumped_efforts(acceleration, case);
         }
-        let shared = self.shared();
+        let shared = self.passed();
         let tree = &shared.tree;
         let loads = self.loads(case);
         let base = self.base();

@@ -1,0 +1,71 @@
+//! Stage `dynamics`: masses that stay where they are carried.
+//!
+//! In: a link on a hinge whose moments are about to be regrouped, and what hangs on it. Out: some of its mass at the origin of
+//! a link on another hinge that it carries, so that its first moment has a component less.
+//!
+//! Regrouping ([`super::regroup`]) leaves the fewest moments, which are not the fewest operations: a component of the first
+//! moment takes five products and sums, three for the force and two for the moment, a mass at the hinge three. A mass
+//! at that hinge is the same on both links. Only literals are divided by: a length that is a parameter might be zero.
+
+use std::ops::Div;
+
+use crate::symbolic::graph::{Graph, Scalar};
+
+use super::inertia::Inertia;
+use super::tree::{Motion, Tree};
+
+/// How many times what there is may stand at a hinge: beyond that small values would be differences of large ones.
+const MOST: f64 = 2.0;
+
+/// Moves mass of a link, whose first moment and mass are those of all that it carries, to one of the links that it carries.
+pub(super) fn keep_mass(g: &mut Graph, tree: &mut Tree, index: usize) {
+    let Motion::Revolute(hinge) = tree.links[index].motion else { return };
+    if !moves(g, tree, index) {
+        return;
+    }
+    let total = tree.links[index].inertia.mass;
+    for child in index + 1..tree.links.len() {
+        let link = &tree.links[child];
+        if link.parent != Some(index) || !matches!(link.motion, Motion::Revolute(_)) || !feels_force(tree, child) {
+            continue;
+        }
+        let offset = g.components(link.offset);
+        let first = tree.links[index].inertia.first;
+        for axis in (0..3).filter(|&axis| axis != hinge) {
+            let numbers = [total, first[axis], offset[axis]].map(|scalar| g.literal(scalar));
+            let [Some(total), Some(first), Some(length)] = numbers else { continue };
+            if first.is_zero() || !length.is_sharp() || length.is_zero() {
+                continue;
+            }
+            let mass = first.div(length);
+            if mass.value().abs() > MOST * total.value().abs() {
+                continue;
+            }
+            let mass = g.number(mass);
+            let there = Inertia { mass: -mass, ..Inertia::ZERO }.shift(g, offset);
+            tree.links[index].inertia = tree.links[index].inertia.add(g, &there);
+            tree.links[child].inertia.mass = g.add(tree.links[child].inertia.mass, mass);
+            return;
+        }
+    }
+}
+
+/// Whether the origin of a link moves: a force on one that doesn't takes no effort.
+fn moves(g: &mut Graph, tree: &Tree, index: usize) -> bool {
+    let support: Vec<usize> = tree.support(Some(index)).collect();
+    let on_hinges = support.iter().all(|&at| matches!(tree.links[at].motion, Motion::Revolute(_)));
+    let still = support.iter().all(|&at| {
+        let Some(parent) = tree.links[at].parent else { return true };
+        let offset = g.components(tree.links[at].offset);
+        // What stands on the axis of the first hinge stands still as well.
+        let axis = tree.links[parent].motion.axis().filter(|_| tree.links[parent].parent.is_none());
+        (0..3).all(|k| offset[k] == Scalar::ZERO || Some(k) == axis)
+    });
+    !(on_hinges && still)
+}
+
+/// Whether the acceleration of a link's origin counts for what it carries.
+fn feels_force(tree: &Tree, from: usize) -> bool {
+    let mut beyond = (from..tree.links.len()).filter(|&index| tree.support(Some(index)).any(|at| at == from));
+    beyond.any(|index| tree.links[index].inertia.first.iter().any(|&moment| moment != Scalar::ZERO))
+}
