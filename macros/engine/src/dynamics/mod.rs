@@ -4,7 +4,7 @@
 //! [`tree`] is what all recursions walk. Kinematics: [`kinematics`] and [`velocities`] in link axes, [`columns`] and
 //! [`world`] in those of one link or the world, [`point_kinematics`] for single points. Dynamics: [`newton_euler`],
 //! [`lumped`] (the same over links that turn together), [`composite`], [`composite_at_root`] (the same for long chains),
-//! [`articulated`], [`momentum`], [`energy`]; [`regroup`], [`turned_ends`], [`shared_axes`] and
+//! [`articulated`], [`momentum`], [`energy`]; [`regroup`], [`slid_origins`], [`turned_ends`], [`shared_axes`] and
 //! [`floating_bases`] say how a tree is written so that they cost less; [`saddle`] solves systems with constraints, in an
 //! order that [`elimination`] finds.
 
@@ -26,6 +26,7 @@ pub mod point_kinematics;
 pub mod regroup;
 pub mod saddle;
 pub mod shared_axes;
+pub mod slid_origins;
 pub mod tree;
 pub mod turned_ends;
 pub mod velocities;

@@ -7,7 +7,7 @@
 //! angle and has nothing else left to turn. A last link that is symmetric about its hinge, as a wheel, is written in axes that its
 //! hinge does not turn, whatever the others are written in: no sine of its angle is left.
 
-use crate::symbolic::graph::{Graph, Rotation, Scalar};
+use crate::symbolic::graph::{Graph, Rotation, Scalar, Vector};
 
 use super::inertia::Inertia;
 use super::newton_euler::Wrench;
@@ -27,6 +27,8 @@ pub struct Shared {
     pub tree: Tree,
     /// From each link's own axes to those it is written in now: for wrenches that are given in link axes.
     pub turns: Vec<Rotation>,
+    /// Each link's own origin from the one that it has now, in its own axes, where they differ: for the same.
+    pub ways: Option<Vec<Vector>>,
     /// Whether parallel neighbours have axes in common.
     pub is_joined: bool,
 }
@@ -43,13 +45,18 @@ impl Shared {
                 link.q = Scalar::ZERO;
             }
         }
-        Shared { tree, turns, is_joined: false }
+        Shared { tree, turns, ways: None, is_joined: false }
     }
 
-    /// Wrenches given in link axes, in those of the tree.
+    /// Wrenches given in link axes about links' own origins, in the axes and about the origins of the tree.
     pub fn turn(&self, g: &mut Graph, wrenches: &[Wrench]) -> Vec<Wrench> {
-        let pairs = wrenches.iter().zip(&self.turns);
-        pairs.map(|(w, &r)| Wrench { moment: g.rotate(r, w.moment), force: g.rotate(r, w.force) }).collect()
+        let turned = wrenches.iter().zip(&self.turns).enumerate().map(|(index, (w, &r))| {
+            let way = self.ways.as_ref().map_or(Vector::ZERO, |ways| ways[index]);
+            let lever = g.cross(way, w.force);
+            let moment = g.add_vectors(w.moment, lever);
+            Wrench { moment: g.rotate(r, moment), force: g.rotate(r, w.force) }
+        });
+        turned.collect()
     }
 }
 
@@ -108,7 +115,7 @@ pub fn share_axes(g: &mut Graph, tree: &Tree, axes: SharedAxes) -> Option<Shared
                 if planar { turn_planar(g, &link.inertia, axis, angle) } else { link.inertia.turn(g, axis, angle) };
         }
     }
-    Some(Shared { tree, turns, is_joined: true })
+    Some(Shared { tree, turns, ways: None, is_joined: true })
 }
 
 fn members(g: &mut Graph, tree: &Tree) -> Vec<Option<Member>> {

@@ -7,9 +7,10 @@ use std::rc::Rc;
 use crate::dynamics::floating_bases::floating_bases;
 use crate::dynamics::regroup::{regroup, regroup_but, regroup_keeping};
 use crate::dynamics::shared_axes::{Shared, share_axes};
+use crate::dynamics::slid_origins::slide_origins;
 use crate::dynamics::tree::Tree;
 use crate::dynamics::turned_ends::turn_ends;
-use crate::symbolic::graph::Vector;
+use crate::symbolic::graph::{Graph, Vector};
 
 use super::equations::Equations;
 use super::scene::{Method, Passing};
@@ -39,16 +40,16 @@ impl Equations<'_> {
         if let Some(shared) = &self.caches.trees.shared {
             return Rc::clone(shared);
         }
-        let tree = match self.scene.way.method {
+        let shared = match self.scene.way.method {
             // What floats is best eliminated whole.
             Method::Articulated => {
                 let tree = &self.scene.mechanism.tree;
                 let keep: Vec<usize> = floating_bases(tree).iter().map(|floating_base| floating_base.link).collect();
-                Rc::new(regroup_but(&mut self.g, tree, false, &keep))
+                self.in_axes(|g, tree| regroup_but(g, tree, false, &keep))
             }
-            Method::Composite | Method::Floating => self.regrouped(),
+            Method::Composite | Method::Floating => self.in_axes(regroup),
         };
-        let shared = Rc::new(self.in_axes(&tree));
+        let shared = Rc::new(shared);
         self.caches.trees.shared = Some(Rc::clone(&shared));
         shared
     }
@@ -61,15 +62,18 @@ impl Equations<'_> {
         if let Some(passed) = &self.caches.trees.passed {
             return Rc::clone(passed);
         }
-        let tree = regroup_keeping(&mut self.g, &self.scene.mechanism.tree);
-        let passed = Rc::new(self.in_axes(&tree));
+        let passed = Rc::new(self.in_axes(regroup_keeping));
         self.caches.trees.passed = Some(Rc::clone(&passed));
         passed
     }
 
-    fn in_axes(&mut self, tree: &Tree) -> Shared {
+    /// The tree of the scene regrouped, in the axes and about the origins of this way.
+    fn in_axes(&mut self, regroup: impl FnOnce(&mut Graph, &Tree) -> Tree) -> Shared {
         let free = self.scene.way.passing != Passing::Plain;
         let g = &mut self.g;
+        let tree = &self.scene.mechanism.tree;
+        let slid = if free { slide_origins(g, tree) } else { None };
+        let tree = &regroup(g, slid.as_ref().map_or(tree, |(tree, _)| tree));
         let turned = if free { turn_ends(g, tree) } else { None };
         let tree = turned.as_ref().map_or(tree, |(tree, _)| tree);
         let shared = self.scene.way.axes.and_then(|axes| share_axes(g, tree, axes));
@@ -80,6 +84,7 @@ impl Equations<'_> {
             }
         }
         shared.tree.turns_columns = free;
+        shared.ways = slid.map(|(_, ways)| ways);
         shared
     }
 

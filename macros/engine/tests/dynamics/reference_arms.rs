@@ -3,11 +3,15 @@
 
 use crate::arms::{ARMS, Arm, flat, load, read};
 use crate::formulations;
+use multibody_engine::dynamics::kinematics::motions;
+use multibody_engine::dynamics::newton_euler::{Wrench, efforts, transmitted};
 use multibody_engine::dynamics::regroup::{regroup, regroup_keeping};
+use multibody_engine::dynamics::shared_axes::Shared;
+use multibody_engine::dynamics::slid_origins::slide_origins;
 use multibody_engine::dynamics::tree::Tree;
 use multibody_engine::dynamics::turned_ends::turn_ends;
 use multibody_engine::symbolic::evaluate::{Evaluator, Real};
-use multibody_engine::symbolic::graph::{Graph, Scalar, SymbolId};
+use multibody_engine::symbolic::graph::{Graph, Rotation, Scalar, SymbolId, Vector};
 use multibody_engine::symbolic::lower::Lowering;
 
 /// Relative to the largest entry of a sample's vector.
@@ -73,11 +77,18 @@ fn link_by_link() {
     ARMS.iter().for_each(|name| check(name, |_, tree| tree.clone()));
 }
 
-/// As efforts are derived: masses at hinges, last links turned, columns of U in common.
+/// As efforts are derived: origins slid, masses at hinges, last links turned, columns of U in common.
+fn free(g: &mut Graph, tree: &Tree) -> Shared {
+    let slid = slide_origins(g, tree);
+    let tree = regroup_keeping(g, slid.as_ref().map_or(tree, |(tree, _)| tree));
+    let turned = turn_ends(g, &tree);
+    let turns = turned.as_ref().map_or(vec![Rotation::IDENTITY; tree.links.len()], |(_, turns)| turns.clone());
+    let tree = Tree { turns_columns: true, ..turned.map_or(tree, |(turned, _)| turned) };
+    Shared { tree, turns, ways: slid.map(|(_, ways)| ways), is_joined: false }
+}
+
 fn passed(g: &mut Graph, tree: &Tree) -> Tree {
-    let tree = regroup_keeping(g, tree);
-    let tree = turn_ends(g, &tree).map_or(tree, |(turned, _)| turned);
-    Tree { turns_columns: true, ..tree }
+    free(g, tree).tree
 }
 
 #[test]
@@ -101,6 +112,31 @@ fn what_passing_saves() {
     });
     assert!(weights.is_sorted_by(|one, next| one > next), "{weights:?}");
     assert!(weights[3] + 40 <= weights[0], "{weights:?}");
+}
+
+/// Forces on links take the same efforts about origins that have slid and in axes that have turned.
+#[test]
+fn forces_on_links() {
+    let Arm { graph: mut g, tree, .. } = load("panda");
+    let wrenches: Vec<Wrench> = (0..tree.links.len())
+        .map(|_| {
+            let [moment, force] = [0, 1].map(|_| [0, 1, 2].map(|_| g.symbol()));
+            Wrench { moment: g.vector(moment), force: g.vector(force) }
+        })
+        .collect();
+    let shared = free(&mut g, &tree);
+    let given = shared.turn(&mut g, &wrenches);
+    let [one, other] = [(&tree, &wrenches), (&shared.tree, &given)].map(|(tree, applied)| {
+        let motions = motions(&mut g, tree, &tree.velocity, &tree.acceleration, Vector::ZERO);
+        let wrenches = transmitted(&mut g, tree, &motions, applied);
+        efforts(&mut g, tree, &wrenches, &tree.acceleration)
+    });
+    let symbols = |id: SymbolId| (0.7 + 1.3 * id.0 as f64).sin();
+    let [one, other] = [one, other].map(|roots| Evaluator::new(&g, Real { symbols: &symbols }).run(&roots));
+    assert!(error(&other, &one) <= TOLERANCE, "{one:?} {other:?}");
+    let ways = shared.ways.expect("the panda's hinges have offsets along them");
+    assert_ne!(ways[2], Vector::ZERO);
+    assert_eq!(shared.tree.links[2].offset, Vector::ZERO);
 }
 
 /// A mass at the last hinge leaves nothing of a component of its carrier's first moment; at a hinge that is too near it would have
