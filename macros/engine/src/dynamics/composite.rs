@@ -8,6 +8,7 @@ use crate::invariant::injection::{Break, broken};
 use crate::symbolic::graph::{Graph, Scalar, Vector};
 
 use super::inertia::Inertia;
+use super::kept_masses::moves;
 use super::newton_euler::{Wrench, to_parent};
 use super::tree::{Motion, Tree};
 
@@ -16,13 +17,26 @@ pub fn mass_matrix(g: &mut Graph, tree: &Tree) -> Vec<Vec<Scalar>> {
     let composites = composites(g, tree);
     let n = tree.freedoms();
     let mut matrix = vec![vec![Scalar::ZERO; n]; n];
+    let still: Vec<bool> = (0..tree.links.len()).map(|index| tree.turns_columns && !moves(g, tree, index)).collect();
     for (index, link) in tree.links.iter().enumerate() {
         for (column, twist) in tree.twists(link) {
             let mut wrench = unit_wrench(g, &composites[index], &twist);
             let mut child = None;
             for ancestor in tree.support(Some(index)) {
                 if let Some(child) = child.replace(ancestor) {
-                    wrench = to_parent(g, tree, child, &wrench);
+                    if still[child] && !still[index] {
+                        // All hinges from here on go through one point, about which the moment is known.
+                        let outermost = tree.support(Some(index)).find(|&at| still[at]).unwrap_or(child);
+                        let axis = axis_in(g, tree, ancestor, outermost);
+                        let effort = g.dot(axis, wrench.moment);
+                        let row = tree.links[ancestor].freedom;
+                        (matrix[row][column], matrix[column][row]) = (effort, effort);
+                        continue;
+                    }
+                    wrench = match still[ancestor] {
+                        true => about_still(g, tree, child, &wrench),
+                        false => to_parent(g, tree, child, &wrench),
+                    };
                 }
                 // What a unit acceleration of the column's coordinate asks for at each link below.
                 let at = &tree.links[ancestor].name;
@@ -38,6 +52,33 @@ pub fn mass_matrix(g: &mut Graph, tree: &Tree) -> Vec<Vec<Scalar>> {
     }
     named(g, &matrix);
     matrix
+}
+
+/// The axis of a hinge in the axes of a link further out.
+fn axis_in(g: &mut Graph, tree: &Tree, hinge: usize, link: usize) -> Vector {
+    let axis = tree.links[hinge].motion.axis().map_or(Vector::ZERO, |axis| g.along(axis, Scalar::ONE));
+    tree.path(Some(hinge), Some(link)).into_iter().fold(axis, |axis, at| tree.to_link(g, &tree.links[at], axis))
+}
+
+/// A link's wrench about the origin of its carrier, which stands still, so that the force counts no more. Across the hinge the lever
+/// is turned into the link's axes, once for all columns, and not the force of each.
+fn about_still(g: &mut Graph, tree: &Tree, index: usize, wrench: &Wrench) -> Wrench {
+    let link = &tree.links[index];
+    let lever = tree.to_link(g, link, link.offset);
+    let Motion::Revolute(axis) = link.motion else { return to_parent(g, tree, index, wrench) };
+    if g.components(lever)[axis] != Scalar::ZERO {
+        return to_parent(g, tree, index, wrench);
+    }
+    let across = g.cross(lever, wrench.force);
+    let across = g.components(across)[axis];
+    let across = g.along(axis, across);
+    let moment = g.add_vectors(wrench.moment, across);
+    let along = g.components(wrench.force)[axis];
+    let along = g.along(axis, along);
+    let along = g.rotate(link.rotation, along);
+    let rest = g.cross(link.offset, along);
+    let moment = tree.to_parent(g, link, moment);
+    Wrench { moment: g.add_vectors(moment, rest), force: Vector::ZERO }
 }
 
 /// Says which entries of a mass matrix its values are.

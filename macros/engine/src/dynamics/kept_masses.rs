@@ -51,7 +51,7 @@ pub(super) fn keep_mass(g: &mut Graph, tree: &mut Tree, index: usize) {
 }
 
 /// Whether the origin of a link moves: a force on one that doesn't takes no effort.
-fn moves(g: &mut Graph, tree: &Tree, index: usize) -> bool {
+pub(super) fn moves(g: &mut Graph, tree: &Tree, index: usize) -> bool {
     let support: Vec<usize> = tree.support(Some(index)).collect();
     let on_hinges = support.iter().all(|&at| matches!(tree.links[at].motion, Motion::Revolute(_)));
     let still = support.iter().all(|&at| {

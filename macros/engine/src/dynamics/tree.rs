@@ -106,7 +106,8 @@ pub struct Tree {
     pub gravity: Option<[Scalar; 3]>,
     /// What is fixed to the ground: it only counts in the potential energy.
     pub ground: Option<Inertia>,
-    /// Columns of U that neighbours have in common are turned from link to link ([`super::kinematics`]).
+    /// Columns of U that neighbours have in common are turned from link to link ([`super::kinematics`]), and columns of the mass
+    /// matrix are taken about points that stand still ([`super::composite`]).
     pub turns_columns: bool,
 }
 

@@ -8,7 +8,7 @@ use crate::mechanics::loops::reduction::Reduction;
 use crate::mechanics::results::linearisation::Accumulation;
 use crate::mechanics::scene::{Method, Passing};
 use crate::mechanics::translate::dependencies::Dependencies;
-use crate::model::types::JointId;
+use crate::model::types::{Force, ForceKind, JointId};
 
 use super::{Candidate, Deriving, Found, MOST_COMPOSITE, freedoms};
 
@@ -56,12 +56,15 @@ impl<'m> Deriving<'m> {
         // An effort reads what carries its joint and what hangs on it, so of large trees rows have come out as the cheapest.
         let is_large = self.is_open() && freedoms(self.model) > MOST_COMPOSITE;
         let sides = sides.iter().filter(|side| !is_large || side.0 == Accumulation::Reverse);
+        // Forces on links read the sines and levers of links as they are, and slopes of these with them.
+        let on_links = |force: &Force| !matches!(force.kind, ForceKind::Effort { .. } | ForceKind::JointSpring { .. });
+        let passing = if self.model.forces.iter().any(on_links) { Passing::Plain } else { Passing::Columns };
         let mut candidates = Vec::new();
         for &(side, names) in sides {
             candidates.extend(self.passed_in_all_axes(
                 names,
                 Method::Composite,
-                Passing::Columns,
+                passing,
                 kept,
                 &mut |e: &mut Equations<'m>| {
                     let reduction = e.reduce()?;
