@@ -13,7 +13,7 @@ use super::tree::{Motion, Tree};
 pub fn slide_origins(g: &mut Graph, tree: &Tree) -> Option<(Tree, Vec<Vector>)> {
     let mut tree = tree.clone();
     let mut ways = vec![Vector::ZERO; tree.links.len()];
-    for index in 0..tree.links.len() {
+    for (index, slid) in ways.iter_mut().enumerate() {
         let link = &tree.links[index];
         let (Motion::Revolute(axis), Some(_)) = (link.motion, link.parent) else { continue };
         let unit = g.along(axis, Scalar::ONE);
@@ -31,7 +31,7 @@ pub fn slide_origins(g: &mut Graph, tree: &Tree) -> Option<(Tree, Vec<Vector>)> 
         for carried in tree.links.iter_mut().filter(|carried| carried.parent == Some(index)) {
             carried.offset = g.add_vectors(carried.offset, way);
         }
-        ways[index] = way;
+        *slid = way;
     }
     ways.iter().any(|&way| way != Vector::ZERO).then_some((tree, ways))
 }
