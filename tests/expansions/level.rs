@@ -56,8 +56,8 @@
 /// | `new` |  | 6 add |  |
 /// | `forward_dynamics` | struts, condensed | 145 add, 160 mul, 9 div, 6 sqrt | 173 add, 225 mul, 9 div, 6 sqrt |
 /// | `inverse_dynamics` | struts, moments about a point of the pins' plane | 154 add, 164 mul, 7 div, 6 sqrt, 3 other | 187 add, 183 mul, 7 div, 6 sqrt, 3 other |
-/// | `dead_centres` | closed forms | 34 add, 31 mul, 12 sqrt | 48 add, 31 mul, 12 sqrt |
-/// | `margins` | closed forms, determinants | 64 add, 69 mul, 12 sqrt | 78 add, 69 mul, 12 sqrt |
+/// | `dead_centres` | closed forms | 31 add, 25 mul, 12 sqrt | 42 add, 25 mul, 12 sqrt |
+/// | `margins` | closed forms, determinants | 52 add, 60 mul, 12 sqrt | 66 add, 60 mul, 12 sqrt |
 ///
 /// ## Defaults in force
 ///
@@ -1187,124 +1187,109 @@ pub mod level {
         ///
         /// Method: closed forms.
         ///
-        /// Operations: 34 add, 31 mul, 12 sqrt; as derived, before optimisation: 48 add, 31 mul, 12 sqrt.
+        /// Operations: 31 add, 25 mul, 12 sqrt; as derived, before optimisation: 42 add, 25 mul, 12 sqrt.
         #[must_use]
         pub fn dead_centres(
             &self,
             _t: T,
             q: &Position<T>,
         ) -> ::multibody::nalgebra::SVector<T, 12> {
-            // Closed form of legs_0_stroke.
+            // Closed form of legs_0_gimbal_first.
             let platform_y_minus_0_779 = q.platform.y - T::lit(0.779);
             let platform_x_plus_2_29 = T::lit(2.29) + q.platform.x;
-            let legs_stroke_discriminant_with_platform_x = T::lit(0.7316888688738209)
-                * platform_x_plus_2_29;
-            let legs_0_stroke_discriminant_with_platform_x = legs_stroke_discriminant_with_platform_x
-                - T::lit(0.6816387600233341) * platform_y_minus_0_779;
-            // Closed form of legs_0_gimbal_first.
+            let minus_legs_0_gimbal_first_b = q.platform.z - T::lit(0.4);
+            let legs_0_gimbal_first_b_squared = minus_legs_0_gimbal_first_b
+                * minus_legs_0_gimbal_first_b;
+            let legs_stroke_discriminant_with_legs_0_gimbal_first_b = platform_x_plus_2_29
+                * platform_x_plus_2_29 + legs_0_gimbal_first_b_squared;
             let legs_gimbal_first_a_with_platform_x = T::lit(0.6816387600233341)
                 * platform_x_plus_2_29;
             let minus_legs_0_gimbal_first_a = T::lit(0.7316888688738209)
                 * platform_y_minus_0_779 + legs_gimbal_first_a_with_platform_x;
-            let minus_legs_0_gimbal_first_b = q.platform.z - T::lit(0.4);
-            let legs_0_gimbal_first_b_squared = minus_legs_0_gimbal_first_b
-                * minus_legs_0_gimbal_first_b;
-            let legs_0_gimbal_first_d = minus_legs_0_gimbal_first_a
-                * minus_legs_0_gimbal_first_a + legs_0_gimbal_first_b_squared;
             // Closed form of legs_1_stroke.
             let platform_y_minus_1_074 = q.platform.y - T::lit(1.074);
             let platform_x_plus_1_78 = T::lit(1.78) + q.platform.x;
-            let legs_stroke_discriminant_part = T::lit(0.8525245220595058)
-                * platform_x_plus_1_78;
-            let legs_1_stroke_discriminant_with_platform_x = legs_stroke_discriminant_part
-                - T::lit(0.5226872289306592) * platform_y_minus_1_074;
-            // Closed form of legs_1_gimbal_first.
+            let legs_stroke_discriminant_with_platform_x = legs_0_gimbal_first_b_squared
+                + platform_x_plus_1_78 * platform_x_plus_1_78;
             let legs_gimbal_first_a_part = T::lit(0.5226872289306592)
                 * platform_x_plus_1_78;
             let minus_legs_1_gimbal_first_a = T::lit(0.8525245220595058)
                 * platform_y_minus_1_074 + legs_gimbal_first_a_part;
-            let legs_1_gimbal_first_d = legs_0_gimbal_first_b_squared
-                + minus_legs_1_gimbal_first_a * minus_legs_1_gimbal_first_a;
             let platform_y_plus_1_074 = T::lit(1.074) + q.platform.y;
-            let legs_2_stroke_discriminant_with_platform_x = legs_stroke_discriminant_part
-                + T::lit(0.5226872289306592) * platform_y_plus_1_074;
             let legs_2_gimbal_first_a = legs_gimbal_first_a_part
                 - T::lit(0.8525245220595058) * platform_y_plus_1_074;
-            let legs_2_gimbal_first_d = legs_0_gimbal_first_b_squared
-                + legs_2_gimbal_first_a * legs_2_gimbal_first_a;
             let platform_y_plus_0_779 = T::lit(0.779) + q.platform.y;
-            let legs_3_stroke_discriminant_with_platform_x = legs_stroke_discriminant_with_platform_x
-                + T::lit(0.6816387600233341) * platform_y_plus_0_779;
             let legs_3_gimbal_first_a = legs_gimbal_first_a_with_platform_x
                 - T::lit(0.7316888688738209) * platform_y_plus_0_779;
-            let legs_3_gimbal_first_d = legs_0_gimbal_first_b_squared
-                + legs_3_gimbal_first_a * legs_3_gimbal_first_a;
             // Closed form of legs_4_stroke.
             let platform_y_minus_0_295 = q.platform.y - T::lit(0.295);
             let platform_x_plus_0_43 = T::lit(43.0 / 100.0) + q.platform.x;
-            let legs_stroke_discriminant_part_v2 = T::lit(0.9577872375530903)
-                * platform_x_plus_0_43;
-            let legs_4_stroke_discriminant_with_platform_y = T::lit(0.2874780123425445)
-                * platform_y_minus_0_295 + legs_stroke_discriminant_part_v2;
-            // Closed form of legs_4_gimbal_first.
+            let legs_stroke_discriminant_part = legs_0_gimbal_first_b_squared
+                + platform_x_plus_0_43 * platform_x_plus_0_43;
             let legs_gimbal_first_a_part_v2 = T::lit(0.2874780123425445)
                 * platform_x_plus_0_43;
             let minus_legs_4_gimbal_first_a = legs_gimbal_first_a_part_v2
                 - T::lit(0.9577872375530903) * platform_y_minus_0_295;
-            let legs_4_gimbal_first_d = legs_0_gimbal_first_b_squared
-                + minus_legs_4_gimbal_first_a * minus_legs_4_gimbal_first_a;
             let platform_y_plus_0_295 = T::lit(0.295) + q.platform.y;
-            let legs_5_stroke_discriminant_with_platform_x = legs_stroke_discriminant_part_v2
-                - T::lit(0.2874780123425445) * platform_y_plus_0_295;
             // Closed form of legs_5_gimbal_first.
             let legs_5_gimbal_first_a = legs_gimbal_first_a_part_v2
                 + T::lit(0.9577872375530903) * platform_y_plus_0_295;
-            let legs_5_gimbal_first_d = legs_0_gimbal_first_b_squared
-                + legs_5_gimbal_first_a * legs_5_gimbal_first_a;
             ::multibody::nalgebra::SVector::from([
                 Real::sqrt(
-                    legs_0_stroke_discriminant_with_platform_x
-                        * legs_0_stroke_discriminant_with_platform_x
-                        + legs_0_gimbal_first_d,
+                    platform_y_minus_0_779 * platform_y_minus_0_779
+                        + legs_stroke_discriminant_with_legs_0_gimbal_first_b,
                 ),
-                Real::sqrt(legs_0_gimbal_first_d),
                 Real::sqrt(
-                    legs_1_stroke_discriminant_with_platform_x
-                        * legs_1_stroke_discriminant_with_platform_x
-                        + legs_1_gimbal_first_d,
+                    legs_0_gimbal_first_b_squared
+                        + minus_legs_0_gimbal_first_a * minus_legs_0_gimbal_first_a,
                 ),
-                Real::sqrt(legs_1_gimbal_first_d),
                 Real::sqrt(
-                    legs_2_stroke_discriminant_with_platform_x
-                        * legs_2_stroke_discriminant_with_platform_x
-                        + legs_2_gimbal_first_d,
+                    platform_y_minus_1_074 * platform_y_minus_1_074
+                        + legs_stroke_discriminant_with_platform_x,
                 ),
-                Real::sqrt(legs_2_gimbal_first_d),
                 Real::sqrt(
-                    legs_3_stroke_discriminant_with_platform_x
-                        * legs_3_stroke_discriminant_with_platform_x
-                        + legs_3_gimbal_first_d,
+                    legs_0_gimbal_first_b_squared
+                        + minus_legs_1_gimbal_first_a * minus_legs_1_gimbal_first_a,
                 ),
-                Real::sqrt(legs_3_gimbal_first_d),
                 Real::sqrt(
-                    legs_4_stroke_discriminant_with_platform_y
-                        * legs_4_stroke_discriminant_with_platform_y
-                        + legs_4_gimbal_first_d,
+                    platform_y_plus_1_074 * platform_y_plus_1_074
+                        + legs_stroke_discriminant_with_platform_x,
                 ),
-                Real::sqrt(legs_4_gimbal_first_d),
                 Real::sqrt(
-                    legs_5_stroke_discriminant_with_platform_x
-                        * legs_5_stroke_discriminant_with_platform_x
-                        + legs_5_gimbal_first_d,
+                    legs_0_gimbal_first_b_squared
+                        + legs_2_gimbal_first_a * legs_2_gimbal_first_a,
                 ),
-                Real::sqrt(legs_5_gimbal_first_d),
+                Real::sqrt(
+                    platform_y_plus_0_779 * platform_y_plus_0_779
+                        + legs_stroke_discriminant_with_legs_0_gimbal_first_b,
+                ),
+                Real::sqrt(
+                    legs_0_gimbal_first_b_squared
+                        + legs_3_gimbal_first_a * legs_3_gimbal_first_a,
+                ),
+                Real::sqrt(
+                    platform_y_minus_0_295 * platform_y_minus_0_295
+                        + legs_stroke_discriminant_part,
+                ),
+                Real::sqrt(
+                    legs_0_gimbal_first_b_squared
+                        + minus_legs_4_gimbal_first_a * minus_legs_4_gimbal_first_a,
+                ),
+                Real::sqrt(
+                    platform_y_plus_0_295 * platform_y_plus_0_295
+                        + legs_stroke_discriminant_part,
+                ),
+                Real::sqrt(
+                    legs_0_gimbal_first_b_squared
+                        + legs_5_gimbal_first_a * legs_5_gimbal_first_a,
+                ),
             ])
         }
         /// For integrators, at a state whose guess is the solution: how far loops are from dead centres (the root of a closed form, the determinant of what Newton's method solves), each followed by the rate of its square; then the greatest residual of Newton's method, if it closes loops.
         ///
         /// Method: closed forms, determinants.
         ///
-        /// Operations: 64 add, 69 mul, 12 sqrt; as derived, before optimisation: 78 add, 69 mul, 12 sqrt.
+        /// Operations: 52 add, 60 mul, 12 sqrt; as derived, before optimisation: 66 add, 60 mul, 12 sqrt.
         #[must_use]
         pub fn margins(
             &self,
@@ -1313,174 +1298,148 @@ pub mod level {
         ) -> ::multibody::nalgebra::SVector<T, 24> {
             let q = &state.q;
             let v = &state.v;
-            // Closed form of legs_0_stroke.
+            // Closed form of legs_0_gimbal_first.
             let platform_y_minus_0_779 = q.platform.y - T::lit(0.779);
             let platform_x_plus_2_29 = T::lit(2.29) + q.platform.x;
-            let legs_stroke_with_platform_x = T::lit(0.7316888688738209)
-                * platform_x_plus_2_29;
-            let legs_0_stroke_with_platform_x = legs_stroke_with_platform_x
-                - T::lit(0.6816387600233341) * platform_y_minus_0_779;
-            // Closed form of legs_0_gimbal_first.
+            let minus_legs_0_gimbal_first_b = q.platform.z - T::lit(0.4);
+            let legs_0_gimbal_first_b_squared = minus_legs_0_gimbal_first_b
+                * minus_legs_0_gimbal_first_b;
+            let legs_stroke_discriminant_with_legs_0_gimbal_first_b = platform_x_plus_2_29
+                * platform_x_plus_2_29 + legs_0_gimbal_first_b_squared;
+            let legs_stroke_gap_rate_with_platform_z_rate = v.platform.z
+                * minus_legs_0_gimbal_first_b;
+            let legs_stroke_gap_rate_with_platform_x_rate = v.platform.x
+                * platform_x_plus_2_29 + legs_stroke_gap_rate_with_platform_z_rate;
             let legs_gimbal_first_a_with_platform_x = T::lit(0.6816387600233341)
                 * platform_x_plus_2_29;
             let minus_legs_0_gimbal_first_a = T::lit(0.7316888688738209)
                 * platform_y_minus_0_779 + legs_gimbal_first_a_with_platform_x;
-            let minus_legs_0_gimbal_first_b = q.platform.z - T::lit(0.4);
-            let legs_0_gimbal_first_b_squared = minus_legs_0_gimbal_first_b
-                * minus_legs_0_gimbal_first_b;
-            let legs_0_gimbal_first_d = minus_legs_0_gimbal_first_a
-                * minus_legs_0_gimbal_first_a + legs_0_gimbal_first_b_squared;
-            // Velocities of what follows.
-            let platform_x_rate_times_0_732 = T::lit(0.7316888688738209) * v.platform.x;
-            let platform_y_rate_times_0_682 = T::lit(0.6816387600233341) * v.platform.y;
-            let platform_x_rate_times_0_682 = T::lit(0.6816387600233341) * v.platform.x;
-            let platform_y_rate_times_0_732 = T::lit(0.7316888688738209) * v.platform.y;
-            let margin_3_with_legs_0_gimbal_first_a = minus_legs_0_gimbal_first_a
-                * (platform_x_rate_times_0_682 + platform_y_rate_times_0_732);
-            let legs_stroke_gap_rate_with_platform_z_rate = v.platform.z
-                * minus_legs_0_gimbal_first_b;
+            // Results.
             let margin_with_platform_z_rate = T::lit(2.0)
                 * legs_stroke_gap_rate_with_platform_z_rate;
+            let platform_x_rate_times_0_682 = T::lit(0.6816387600233341) * v.platform.x;
+            let platform_y_rate_times_0_732 = T::lit(0.7316888688738209) * v.platform.y;
             // Closed form of legs_1_stroke.
             let platform_y_minus_1_074 = q.platform.y - T::lit(1.074);
             let platform_x_plus_1_78 = T::lit(1.78) + q.platform.x;
-            let legs_stroke_part = T::lit(0.8525245220595058) * platform_x_plus_1_78;
-            let legs_1_stroke_with_platform_x = legs_stroke_part
-                - T::lit(0.5226872289306592) * platform_y_minus_1_074;
-            // Closed form of legs_1_gimbal_first.
+            let legs_stroke_discriminant_with_platform_x = legs_0_gimbal_first_b_squared
+                + platform_x_plus_1_78 * platform_x_plus_1_78;
+            let legs_stroke_gap_rate_with_legs_0_gimbal_first_b = legs_stroke_gap_rate_with_platform_z_rate
+                + v.platform.x * platform_x_plus_1_78;
             let legs_gimbal_first_a_part = T::lit(0.5226872289306592)
                 * platform_x_plus_1_78;
             let minus_legs_1_gimbal_first_a = T::lit(0.8525245220595058)
                 * platform_y_minus_1_074 + legs_gimbal_first_a_part;
-            let legs_1_gimbal_first_d = legs_0_gimbal_first_b_squared
-                + minus_legs_1_gimbal_first_a * minus_legs_1_gimbal_first_a;
-            // Velocities of what follows.
-            let platform_x_rate_times_0_853 = T::lit(0.8525245220595058) * v.platform.x;
-            let platform_y_rate_times_0_523 = T::lit(0.5226872289306592) * v.platform.y;
             let platform_x_rate_times_0_523 = T::lit(0.5226872289306592) * v.platform.x;
             let platform_y_rate_times_0_853 = T::lit(0.8525245220595058) * v.platform.y;
-            let margin_7_with_legs_1_gimbal_first_a = minus_legs_1_gimbal_first_a
-                * (platform_x_rate_times_0_523 + platform_y_rate_times_0_853);
             let platform_y_plus_1_074 = T::lit(1.074) + q.platform.y;
-            let legs_2_stroke_with_platform_x = legs_stroke_part
-                + T::lit(0.5226872289306592) * platform_y_plus_1_074;
             let legs_2_gimbal_first_a = legs_gimbal_first_a_part
                 - T::lit(0.8525245220595058) * platform_y_plus_1_074;
-            let legs_2_gimbal_first_d = legs_0_gimbal_first_b_squared
-                + legs_2_gimbal_first_a * legs_2_gimbal_first_a;
-            let margin_11_with_legs_2_gimbal_first_a = legs_2_gimbal_first_a
-                * (platform_x_rate_times_0_523 - platform_y_rate_times_0_853);
             let platform_y_plus_0_779 = T::lit(0.779) + q.platform.y;
-            let legs_3_stroke_with_platform_x = legs_stroke_with_platform_x
-                + T::lit(0.6816387600233341) * platform_y_plus_0_779;
             let legs_3_gimbal_first_a = legs_gimbal_first_a_with_platform_x
                 - T::lit(0.7316888688738209) * platform_y_plus_0_779;
-            let legs_3_gimbal_first_d = legs_0_gimbal_first_b_squared
-                + legs_3_gimbal_first_a * legs_3_gimbal_first_a;
-            let margin_15_with_legs_3_gimbal_first_a = legs_3_gimbal_first_a
-                * (platform_x_rate_times_0_682 - platform_y_rate_times_0_732);
             // Closed form of legs_4_stroke.
             let platform_y_minus_0_295 = q.platform.y - T::lit(0.295);
             let platform_x_plus_0_43 = T::lit(43.0 / 100.0) + q.platform.x;
-            let legs_stroke_part_v2 = T::lit(0.9577872375530903) * platform_x_plus_0_43;
-            let legs_4_stroke_with_platform_y = T::lit(0.2874780123425445)
-                * platform_y_minus_0_295 + legs_stroke_part_v2;
-            // Closed form of legs_4_gimbal_first.
+            let legs_stroke_discriminant_part = legs_0_gimbal_first_b_squared
+                + platform_x_plus_0_43 * platform_x_plus_0_43;
+            let legs_stroke_gap_rate_with_platform_x = legs_stroke_gap_rate_with_platform_z_rate
+                + v.platform.x * platform_x_plus_0_43;
             let legs_gimbal_first_a_part_v2 = T::lit(0.2874780123425445)
                 * platform_x_plus_0_43;
             let minus_legs_4_gimbal_first_a = legs_gimbal_first_a_part_v2
                 - T::lit(0.9577872375530903) * platform_y_minus_0_295;
-            let legs_4_gimbal_first_d = legs_0_gimbal_first_b_squared
-                + minus_legs_4_gimbal_first_a * minus_legs_4_gimbal_first_a;
-            // Velocities of what follows.
-            let platform_x_rate_times_0_958 = T::lit(0.9577872375530903) * v.platform.x;
-            let platform_y_rate_times_0_287 = T::lit(0.2874780123425445) * v.platform.y;
             let platform_x_rate_times_0_287 = T::lit(0.2874780123425445) * v.platform.x;
             let platform_y_rate_times_0_958 = T::lit(0.9577872375530903) * v.platform.y;
-            let margin_19_with_legs_4_gimbal_first_a = minus_legs_4_gimbal_first_a
-                * (platform_x_rate_times_0_287 - platform_y_rate_times_0_958);
             let platform_y_plus_0_295 = T::lit(0.295) + q.platform.y;
-            let legs_5_stroke_with_platform_x = legs_stroke_part_v2
-                - T::lit(0.2874780123425445) * platform_y_plus_0_295;
+            // Closed form of legs_5_gimbal_first.
             let legs_5_gimbal_first_a = legs_gimbal_first_a_part_v2
                 + T::lit(0.9577872375530903) * platform_y_plus_0_295;
-            let legs_5_gimbal_first_d = legs_0_gimbal_first_b_squared
-                + legs_5_gimbal_first_a * legs_5_gimbal_first_a;
-            let margin_23_with_legs_5_gimbal_first_a = legs_5_gimbal_first_a
-                * (platform_x_rate_times_0_287 + platform_y_rate_times_0_958);
             ::multibody::nalgebra::SVector::from([
                 Real::sqrt(
-                    legs_0_stroke_with_platform_x * legs_0_stroke_with_platform_x
-                        + legs_0_gimbal_first_d,
+                    platform_y_minus_0_779 * platform_y_minus_0_779
+                        + legs_stroke_discriminant_with_legs_0_gimbal_first_b,
                 ),
                 (T::lit(2.0)
-                    * (legs_0_stroke_with_platform_x
-                        * (platform_x_rate_times_0_732 - platform_y_rate_times_0_682)
-                        + margin_3_with_legs_0_gimbal_first_a
-                        + legs_stroke_gap_rate_with_platform_z_rate)),
-                Real::sqrt(legs_0_gimbal_first_d),
-                (T::lit(2.0) * margin_3_with_legs_0_gimbal_first_a
-                    + margin_with_platform_z_rate),
+                    * (v.platform.y * platform_y_minus_0_779
+                        + legs_stroke_gap_rate_with_platform_x_rate)),
                 Real::sqrt(
-                    legs_1_stroke_with_platform_x * legs_1_stroke_with_platform_x
-                        + legs_1_gimbal_first_d,
+                    legs_0_gimbal_first_b_squared
+                        + minus_legs_0_gimbal_first_a * minus_legs_0_gimbal_first_a,
                 ),
-                (T::lit(2.0)
-                    * (legs_stroke_gap_rate_with_platform_z_rate
-                        + legs_1_stroke_with_platform_x
-                            * (platform_x_rate_times_0_853 - platform_y_rate_times_0_523)
-                        + margin_7_with_legs_1_gimbal_first_a)),
-                Real::sqrt(legs_1_gimbal_first_d),
-                (T::lit(2.0) * margin_7_with_legs_1_gimbal_first_a
-                    + margin_with_platform_z_rate),
+                (margin_with_platform_z_rate
+                    + T::lit(2.0) * minus_legs_0_gimbal_first_a
+                        * (platform_x_rate_times_0_682 + platform_y_rate_times_0_732)),
                 Real::sqrt(
-                    legs_2_stroke_with_platform_x * legs_2_stroke_with_platform_x
-                        + legs_2_gimbal_first_d,
+                    platform_y_minus_1_074 * platform_y_minus_1_074
+                        + legs_stroke_discriminant_with_platform_x,
                 ),
                 (T::lit(2.0)
-                    * (legs_stroke_gap_rate_with_platform_z_rate
-                        + legs_2_stroke_with_platform_x
-                            * (platform_x_rate_times_0_853 + platform_y_rate_times_0_523)
-                        + margin_11_with_legs_2_gimbal_first_a)),
-                Real::sqrt(legs_2_gimbal_first_d),
-                (T::lit(2.0) * margin_11_with_legs_2_gimbal_first_a
-                    + margin_with_platform_z_rate),
+                    * (v.platform.y * platform_y_minus_1_074
+                        + legs_stroke_gap_rate_with_legs_0_gimbal_first_b)),
                 Real::sqrt(
-                    legs_3_stroke_with_platform_x * legs_3_stroke_with_platform_x
-                        + legs_3_gimbal_first_d,
+                    legs_0_gimbal_first_b_squared
+                        + minus_legs_1_gimbal_first_a * minus_legs_1_gimbal_first_a,
                 ),
-                (T::lit(2.0)
-                    * (legs_stroke_gap_rate_with_platform_z_rate
-                        + legs_3_stroke_with_platform_x
-                            * (platform_x_rate_times_0_732 + platform_y_rate_times_0_682)
-                        + margin_15_with_legs_3_gimbal_first_a)),
-                Real::sqrt(legs_3_gimbal_first_d),
-                (T::lit(2.0) * margin_15_with_legs_3_gimbal_first_a
-                    + margin_with_platform_z_rate),
+                (margin_with_platform_z_rate
+                    + T::lit(2.0) * minus_legs_1_gimbal_first_a
+                        * (platform_x_rate_times_0_523 + platform_y_rate_times_0_853)),
                 Real::sqrt(
-                    legs_4_stroke_with_platform_y * legs_4_stroke_with_platform_y
-                        + legs_4_gimbal_first_d,
+                    platform_y_plus_1_074 * platform_y_plus_1_074
+                        + legs_stroke_discriminant_with_platform_x,
                 ),
                 (T::lit(2.0)
-                    * (legs_stroke_gap_rate_with_platform_z_rate
-                        + legs_4_stroke_with_platform_y
-                            * (platform_x_rate_times_0_958 + platform_y_rate_times_0_287)
-                        + margin_19_with_legs_4_gimbal_first_a)),
-                Real::sqrt(legs_4_gimbal_first_d),
-                (T::lit(2.0) * margin_19_with_legs_4_gimbal_first_a
-                    + margin_with_platform_z_rate),
+                    * (v.platform.y * platform_y_plus_1_074
+                        + legs_stroke_gap_rate_with_legs_0_gimbal_first_b)),
                 Real::sqrt(
-                    legs_5_stroke_with_platform_x * legs_5_stroke_with_platform_x
-                        + legs_5_gimbal_first_d,
+                    legs_0_gimbal_first_b_squared
+                        + legs_2_gimbal_first_a * legs_2_gimbal_first_a,
+                ),
+                (margin_with_platform_z_rate
+                    + T::lit(2.0) * legs_2_gimbal_first_a
+                        * (platform_x_rate_times_0_523 - platform_y_rate_times_0_853)),
+                Real::sqrt(
+                    platform_y_plus_0_779 * platform_y_plus_0_779
+                        + legs_stroke_discriminant_with_legs_0_gimbal_first_b,
                 ),
                 (T::lit(2.0)
-                    * (legs_stroke_gap_rate_with_platform_z_rate
-                        + legs_5_stroke_with_platform_x
-                            * (platform_x_rate_times_0_958 - platform_y_rate_times_0_287)
-                        + margin_23_with_legs_5_gimbal_first_a)),
-                Real::sqrt(legs_5_gimbal_first_d),
-                (T::lit(2.0) * margin_23_with_legs_5_gimbal_first_a
-                    + margin_with_platform_z_rate),
+                    * (v.platform.y * platform_y_plus_0_779
+                        + legs_stroke_gap_rate_with_platform_x_rate)),
+                Real::sqrt(
+                    legs_0_gimbal_first_b_squared
+                        + legs_3_gimbal_first_a * legs_3_gimbal_first_a,
+                ),
+                (margin_with_platform_z_rate
+                    + T::lit(2.0) * legs_3_gimbal_first_a
+                        * (platform_x_rate_times_0_682 - platform_y_rate_times_0_732)),
+                Real::sqrt(
+                    platform_y_minus_0_295 * platform_y_minus_0_295
+                        + legs_stroke_discriminant_part,
+                ),
+                (T::lit(2.0)
+                    * (v.platform.y * platform_y_minus_0_295
+                        + legs_stroke_gap_rate_with_platform_x)),
+                Real::sqrt(
+                    legs_0_gimbal_first_b_squared
+                        + minus_legs_4_gimbal_first_a * minus_legs_4_gimbal_first_a,
+                ),
+                (margin_with_platform_z_rate
+                    + T::lit(2.0) * minus_legs_4_gimbal_first_a
+                        * (platform_x_rate_times_0_287 - platform_y_rate_times_0_958)),
+                Real::sqrt(
+                    platform_y_plus_0_295 * platform_y_plus_0_295
+                        + legs_stroke_discriminant_part,
+                ),
+                (T::lit(2.0)
+                    * (v.platform.y * platform_y_plus_0_295
+                        + legs_stroke_gap_rate_with_platform_x)),
+                Real::sqrt(
+                    legs_0_gimbal_first_b_squared
+                        + legs_5_gimbal_first_a * legs_5_gimbal_first_a,
+                ),
+                (margin_with_platform_z_rate
+                    + T::lit(2.0) * legs_5_gimbal_first_a
+                        * (platform_x_rate_times_0_287 + platform_y_rate_times_0_958)),
             ])
         }
     }
@@ -1741,6 +1700,9 @@ pub mod level {
         ) -> Option<&'static str> {
             let q = &state.q;
             // Closed form of legs_0_gimbal_first.
+            let minus_legs_0_gimbal_first_b = q.platform.z - T::lit(0.4);
+            let legs_0_gimbal_first_b_squared = minus_legs_0_gimbal_first_b
+                * minus_legs_0_gimbal_first_b;
             let platform_y_plus_0_595_minus_1_374 = T::lit(0.595) + q.platform.y
                 - T::lit(1.374);
             let platform_x_plus_0_17_plus_2_12 = T::lit(2.12)
@@ -1750,13 +1712,9 @@ pub mod level {
             let minus_legs_0_gimbal_first_a = T::lit(0.7316888688738209)
                 * platform_y_plus_0_595_minus_1_374
                 + legs_gimbal_first_a_with_platform_x;
-            let legs_0_gimbal_first_a_squared = minus_legs_0_gimbal_first_a
-                * minus_legs_0_gimbal_first_a;
-            let minus_legs_0_gimbal_first_b = q.platform.z - T::lit(0.4);
-            let legs_0_gimbal_first_b_squared = minus_legs_0_gimbal_first_b
-                * minus_legs_0_gimbal_first_b;
             let root_legs_0_gimbal_first = Real::sqrt(
-                legs_0_gimbal_first_a_squared + legs_0_gimbal_first_b_squared,
+                legs_0_gimbal_first_b_squared
+                    + minus_legs_0_gimbal_first_a * minus_legs_0_gimbal_first_a,
             );
             let minus_slope_legs_0_gimbal_first_inv = T::lit(1.0)
                 / root_legs_0_gimbal_first;
@@ -1764,12 +1722,11 @@ pub mod level {
                 * minus_slope_legs_0_gimbal_first_inv;
             let mass_matrix_with_root_legs_0_gimbal_first = minus_slope_legs_0_gimbal_first_inv
                 * cos_legs_0_gimbal_first;
-            let legs_gimbal_second_v_with_platform_x = T::lit(0.7316888688738209)
+            // Closed form of legs_0_stroke.
+            let legs_stroke_discriminant_with_platform_x = platform_x_plus_0_17_plus_2_12
                 * platform_x_plus_0_17_plus_2_12;
-            let legs_0_gimbal_second_v = legs_gimbal_second_v_with_platform_x
-                - T::lit(0.6816387600233341) * platform_y_plus_0_595_minus_1_374;
-            let legs_0_stroke_discriminant = legs_0_gimbal_second_v
-                * legs_0_gimbal_second_v + legs_0_gimbal_first_a_squared
+            let legs_0_stroke_discriminant = legs_stroke_discriminant_with_platform_x
+                + platform_y_plus_0_595_minus_1_374 * platform_y_plus_0_595_minus_1_374
                 + legs_0_gimbal_first_b_squared;
             let root_legs_0_stroke = Real::sqrt(legs_0_stroke_discriminant);
             let slope_legs_0_stroke_inv = T::lit(1.0) / root_legs_0_stroke;
@@ -1783,7 +1740,10 @@ pub mod level {
                 * m_7_7 * mass_matrix_with_root_legs_0_gimbal_first;
             let minus_sin_legs_0_gimbal_first = minus_legs_0_gimbal_first_a
                 * minus_slope_legs_0_gimbal_first_inv;
-            let sin_legs_0_gimbal_second = legs_0_gimbal_second_v
+            let legs_gimbal_second_v_with_platform_x = T::lit(0.7316888688738209)
+                * platform_x_plus_0_17_plus_2_12;
+            let sin_legs_0_gimbal_second = (legs_gimbal_second_v_with_platform_x
+                - T::lit(0.6816387600233341) * platform_y_plus_0_595_minus_1_374)
                 * slope_legs_0_stroke_inv;
             // Results.
             let mass_matrix_with_sin_legs_0_gimbal_first = minus_sin_legs_0_gimbal_first
@@ -1802,10 +1762,9 @@ pub mod level {
                 * platform_x_minus_0_6_plus_2_38;
             let minus_legs_1_gimbal_first_a = T::lit(0.8525245220595058)
                 * platform_y_plus_0_15_minus_1_224 + legs_gimbal_first_a_part;
-            let legs_1_gimbal_first_a_squared = minus_legs_1_gimbal_first_a
-                * minus_legs_1_gimbal_first_a;
             let root_legs_1_gimbal_first = Real::sqrt(
-                legs_0_gimbal_first_b_squared + legs_1_gimbal_first_a_squared,
+                legs_0_gimbal_first_b_squared
+                    + minus_legs_1_gimbal_first_a * minus_legs_1_gimbal_first_a,
             );
             let minus_slope_legs_1_gimbal_first_inv = T::lit(1.0)
                 / root_legs_1_gimbal_first;
@@ -1813,13 +1772,12 @@ pub mod level {
                 * minus_slope_legs_1_gimbal_first_inv;
             let mass_matrix_with_root_legs_1_gimbal_first = minus_slope_legs_1_gimbal_first_inv
                 * cos_legs_1_gimbal_first;
-            let legs_gimbal_second_v_part = T::lit(0.8525245220595058)
+            // Closed form of legs_1_stroke.
+            let legs_stroke_discriminant_part = platform_x_minus_0_6_plus_2_38
                 * platform_x_minus_0_6_plus_2_38;
-            let legs_1_gimbal_second_v = legs_gimbal_second_v_part
-                - T::lit(0.5226872289306592) * platform_y_plus_0_15_minus_1_224;
             let legs_1_stroke_discriminant = legs_0_gimbal_first_b_squared
-                + legs_1_gimbal_second_v * legs_1_gimbal_second_v
-                + legs_1_gimbal_first_a_squared;
+                + legs_stroke_discriminant_part
+                + platform_y_plus_0_15_minus_1_224 * platform_y_plus_0_15_minus_1_224;
             let root_legs_1_stroke = Real::sqrt(legs_1_stroke_discriminant);
             let slope_legs_1_stroke_inv = T::lit(1.0) / root_legs_1_stroke;
             let cos_legs_1_gimbal_second = root_legs_1_gimbal_first
@@ -1832,7 +1790,10 @@ pub mod level {
                 * m_10_10 * mass_matrix_with_root_legs_1_gimbal_first;
             let minus_sin_legs_1_gimbal_first = minus_legs_1_gimbal_first_a
                 * minus_slope_legs_1_gimbal_first_inv;
-            let sin_legs_1_gimbal_second = legs_1_gimbal_second_v
+            let legs_gimbal_second_v_part = T::lit(0.8525245220595058)
+                * platform_x_minus_0_6_plus_2_38;
+            let sin_legs_1_gimbal_second = (legs_gimbal_second_v_part
+                - T::lit(0.5226872289306592) * platform_y_plus_0_15_minus_1_224)
                 * slope_legs_1_stroke_inv;
             // Results.
             let mass_matrix_with_sin_legs_1_gimbal_first = minus_sin_legs_1_gimbal_first
@@ -1847,10 +1808,9 @@ pub mod level {
                 + (q.platform.y - T::lit(0.15));
             let legs_2_gimbal_first_a = legs_gimbal_first_a_part
                 - T::lit(0.8525245220595058) * platform_y_minus_0_15_plus_1_224;
-            let legs_2_gimbal_first_a_squared = legs_2_gimbal_first_a
-                * legs_2_gimbal_first_a;
             let root_legs_2_gimbal_first = Real::sqrt(
-                legs_0_gimbal_first_b_squared + legs_2_gimbal_first_a_squared,
+                legs_0_gimbal_first_b_squared
+                    + legs_2_gimbal_first_a * legs_2_gimbal_first_a,
             );
             let minus_slope_legs_2_gimbal_first_inv = T::lit(1.0)
                 / root_legs_2_gimbal_first;
@@ -1858,11 +1818,9 @@ pub mod level {
                 * minus_slope_legs_2_gimbal_first_inv;
             let mass_matrix_with_root_legs_2_gimbal_first = minus_slope_legs_2_gimbal_first_inv
                 * cos_legs_2_gimbal_first;
-            let legs_2_gimbal_second_v = legs_gimbal_second_v_part
-                + T::lit(0.5226872289306592) * platform_y_minus_0_15_plus_1_224;
             let legs_2_stroke_discriminant = legs_0_gimbal_first_b_squared
-                + legs_2_gimbal_second_v * legs_2_gimbal_second_v
-                + legs_2_gimbal_first_a_squared;
+                + legs_stroke_discriminant_part
+                + platform_y_minus_0_15_plus_1_224 * platform_y_minus_0_15_plus_1_224;
             let root_legs_2_stroke = Real::sqrt(legs_2_stroke_discriminant);
             let slope_legs_2_stroke_inv = T::lit(1.0) / root_legs_2_stroke;
             let cos_legs_2_gimbal_second = root_legs_2_gimbal_first
@@ -1875,7 +1833,8 @@ pub mod level {
                 * m_13_13 * mass_matrix_with_root_legs_2_gimbal_first;
             let sin_legs_2_gimbal_first = legs_2_gimbal_first_a
                 * minus_slope_legs_2_gimbal_first_inv;
-            let sin_legs_2_gimbal_second = legs_2_gimbal_second_v
+            let sin_legs_2_gimbal_second = (legs_gimbal_second_v_part
+                + T::lit(0.5226872289306592) * platform_y_minus_0_15_plus_1_224)
                 * slope_legs_2_stroke_inv;
             // Results.
             let mass_matrix_with_sin_legs_2_gimbal_first = sin_legs_2_gimbal_first
@@ -1890,10 +1849,9 @@ pub mod level {
                 + (q.platform.y - T::lit(0.595));
             let legs_3_gimbal_first_a = legs_gimbal_first_a_with_platform_x
                 - T::lit(0.7316888688738209) * platform_y_minus_0_595_plus_1_374;
-            let legs_3_gimbal_first_a_squared = legs_3_gimbal_first_a
-                * legs_3_gimbal_first_a;
             let root_legs_3_gimbal_first = Real::sqrt(
-                legs_0_gimbal_first_b_squared + legs_3_gimbal_first_a_squared,
+                legs_0_gimbal_first_b_squared
+                    + legs_3_gimbal_first_a * legs_3_gimbal_first_a,
             );
             let minus_slope_legs_3_gimbal_first_inv = T::lit(1.0)
                 / root_legs_3_gimbal_first;
@@ -1901,11 +1859,9 @@ pub mod level {
                 * minus_slope_legs_3_gimbal_first_inv;
             let mass_matrix_with_root_legs_3_gimbal_first = minus_slope_legs_3_gimbal_first_inv
                 * cos_legs_3_gimbal_first;
-            let legs_3_gimbal_second_v = legs_gimbal_second_v_with_platform_x
-                + T::lit(0.6816387600233341) * platform_y_minus_0_595_plus_1_374;
-            let legs_3_stroke_discriminant = legs_0_gimbal_first_b_squared
-                + legs_3_gimbal_second_v * legs_3_gimbal_second_v
-                + legs_3_gimbal_first_a_squared;
+            let legs_3_stroke_discriminant = legs_stroke_discriminant_with_platform_x
+                + legs_0_gimbal_first_b_squared
+                + platform_y_minus_0_595_plus_1_374 * platform_y_minus_0_595_plus_1_374;
             let root_legs_3_stroke = Real::sqrt(legs_3_stroke_discriminant);
             let slope_legs_3_stroke_inv = T::lit(1.0) / root_legs_3_stroke;
             let cos_legs_3_gimbal_second = root_legs_3_gimbal_first
@@ -1918,7 +1874,8 @@ pub mod level {
                 * m_16_16 * mass_matrix_with_root_legs_3_gimbal_first;
             let sin_legs_3_gimbal_first = legs_3_gimbal_first_a
                 * minus_slope_legs_3_gimbal_first_inv;
-            let sin_legs_3_gimbal_second = legs_3_gimbal_second_v
+            let sin_legs_3_gimbal_second = (legs_gimbal_second_v_with_platform_x
+                + T::lit(0.6816387600233341) * platform_y_minus_0_595_plus_1_374)
                 * slope_legs_3_stroke_inv;
             // Results.
             let mass_matrix_with_sin_legs_3_gimbal_first = sin_legs_3_gimbal_first
@@ -1936,10 +1893,9 @@ pub mod level {
                 * platform_x_plus_0_43;
             let minus_legs_4_gimbal_first_a = legs_gimbal_first_a_part_v2
                 - T::lit(0.9577872375530903) * platform_y_minus_0_445_plus_0_15;
-            let legs_4_gimbal_first_a_squared = minus_legs_4_gimbal_first_a
-                * minus_legs_4_gimbal_first_a;
             let root_legs_4_gimbal_first = Real::sqrt(
-                legs_0_gimbal_first_b_squared + legs_4_gimbal_first_a_squared,
+                legs_0_gimbal_first_b_squared
+                    + minus_legs_4_gimbal_first_a * minus_legs_4_gimbal_first_a,
             );
             let minus_slope_legs_4_gimbal_first_inv = T::lit(1.0)
                 / root_legs_4_gimbal_first;
@@ -1947,13 +1903,12 @@ pub mod level {
                 * minus_slope_legs_4_gimbal_first_inv;
             let mass_matrix_with_root_legs_4_gimbal_first = minus_slope_legs_4_gimbal_first_inv
                 * cos_legs_4_gimbal_first;
-            let legs_gimbal_second_v_part_v2 = T::lit(0.9577872375530903)
+            // Closed form of legs_4_stroke.
+            let legs_stroke_discriminant_part_v2 = platform_x_plus_0_43
                 * platform_x_plus_0_43;
-            let minus_legs_4_gimbal_second_v = T::lit(0.2874780123425445)
-                * platform_y_minus_0_445_plus_0_15 + legs_gimbal_second_v_part_v2;
             let legs_4_stroke_discriminant = legs_0_gimbal_first_b_squared
-                + minus_legs_4_gimbal_second_v * minus_legs_4_gimbal_second_v
-                + legs_4_gimbal_first_a_squared;
+                + legs_stroke_discriminant_part_v2
+                + platform_y_minus_0_445_plus_0_15 * platform_y_minus_0_445_plus_0_15;
             let root_legs_4_stroke = Real::sqrt(legs_4_stroke_discriminant);
             let slope_legs_4_stroke_inv = T::lit(1.0) / root_legs_4_stroke;
             let cos_legs_4_gimbal_second = root_legs_4_gimbal_first
@@ -1966,7 +1921,10 @@ pub mod level {
                 * m_19_19 * mass_matrix_with_root_legs_4_gimbal_first;
             let minus_sin_legs_4_gimbal_first = minus_legs_4_gimbal_first_a
                 * minus_slope_legs_4_gimbal_first_inv;
-            let minus_sin_legs_4_gimbal_second = minus_legs_4_gimbal_second_v
+            let legs_gimbal_second_v_part_v2 = T::lit(0.9577872375530903)
+                * platform_x_plus_0_43;
+            let minus_sin_legs_4_gimbal_second = (T::lit(0.2874780123425445)
+                * platform_y_minus_0_445_plus_0_15 + legs_gimbal_second_v_part_v2)
                 * slope_legs_4_stroke_inv;
             // Results.
             let mass_matrix_with_sin_legs_4_gimbal_first = minus_sin_legs_4_gimbal_first
@@ -1981,10 +1939,9 @@ pub mod level {
                 - T::lit(0.15);
             let legs_5_gimbal_first_a = legs_gimbal_first_a_part_v2
                 + T::lit(0.9577872375530903) * platform_y_plus_0_445_minus_0_15;
-            let legs_5_gimbal_first_a_squared = legs_5_gimbal_first_a
-                * legs_5_gimbal_first_a;
             let root_legs_5_gimbal_first = Real::sqrt(
-                legs_0_gimbal_first_b_squared + legs_5_gimbal_first_a_squared,
+                legs_0_gimbal_first_b_squared
+                    + legs_5_gimbal_first_a * legs_5_gimbal_first_a,
             );
             let minus_slope_legs_5_gimbal_first_inv = T::lit(1.0)
                 / root_legs_5_gimbal_first;
@@ -1992,11 +1949,9 @@ pub mod level {
                 * minus_slope_legs_5_gimbal_first_inv;
             let mass_matrix_with_root_legs_5_gimbal_first = minus_slope_legs_5_gimbal_first_inv
                 * cos_legs_5_gimbal_first;
-            let minus_legs_5_gimbal_second_v = legs_gimbal_second_v_part_v2
-                - T::lit(0.2874780123425445) * platform_y_plus_0_445_minus_0_15;
             let legs_5_stroke_discriminant = legs_0_gimbal_first_b_squared
-                + minus_legs_5_gimbal_second_v * minus_legs_5_gimbal_second_v
-                + legs_5_gimbal_first_a_squared;
+                + legs_stroke_discriminant_part_v2
+                + platform_y_plus_0_445_minus_0_15 * platform_y_plus_0_445_minus_0_15;
             let root_legs_5_stroke = Real::sqrt(legs_5_stroke_discriminant);
             let slope_legs_5_stroke_inv = T::lit(1.0) / root_legs_5_stroke;
             let cos_legs_5_gimbal_second = root_legs_5_gimbal_first
@@ -2009,7 +1964,8 @@ pub mod level {
                 * m_22_22 * mass_matrix_with_root_legs_5_gimbal_first;
             let sin_legs_5_gimbal_first = legs_5_gimbal_first_a
                 * minus_slope_legs_5_gimbal_first_inv;
-            let minus_sin_legs_5_gimbal_second = minus_legs_5_gimbal_second_v
+            let minus_sin_legs_5_gimbal_second = (legs_gimbal_second_v_part_v2
+                - T::lit(0.2874780123425445) * platform_y_plus_0_445_minus_0_15)
                 * slope_legs_5_stroke_inv;
             // Results.
             let mass_matrix_with_sin_legs_5_gimbal_first = sin_legs_5_gimbal_first
@@ -2444,8 +2400,8 @@ pub mod level {
         },
         ::multibody::Cost {
             function: "dead_centres",
-            add: 34,
-            mul: 31,
+            add: 31,
+            mul: 25,
             div: 0,
             sqrt: 12,
             sincos: 0,
@@ -2453,8 +2409,8 @@ pub mod level {
         },
         ::multibody::Cost {
             function: "margins",
-            add: 64,
-            mul: 69,
+            add: 52,
+            mul: 60,
             div: 0,
             sqrt: 12,
             sincos: 0,
@@ -2483,8 +2439,8 @@ pub mod level {
         },
         ::multibody::Cost {
             function: "dead_centres",
-            add: 48,
-            mul: 31,
+            add: 42,
+            mul: 25,
             div: 0,
             sqrt: 12,
             sincos: 0,
@@ -2492,8 +2448,8 @@ pub mod level {
         },
         ::multibody::Cost {
             function: "margins",
-            add: 78,
-            mul: 69,
+            add: 66,
+            mul: 60,
             div: 0,
             sqrt: 12,
             sincos: 0,
