@@ -195,7 +195,12 @@ fn sharing_changes_no_result() {
     for model in [stewart(), by_hand("[X, Y]", "0.3"), by_hand("[Y, X]", "0.1")] {
         let (shared, alone) = (costs(&model, true), costs(&model, false));
         assert_eq!(shared.0, alone.0);
-        assert_eq!(shared.1, alone.1);
+        // What is found first depends on what the graph has of a leg by then; what each unknown is found by does not.
+        let sorted = |mut notes: Vec<String>| {
+            notes.sort_unstable();
+            notes
+        };
+        assert_eq!(sorted(shared.1), sorted(alone.1));
         let sentence = format!("## Repeated parts\n\n- {}", sentences(&model)[0]);
         assert!(shared.2.contains(&sentence), "{}", shared.2);
         assert!(!alone.2.contains("Repeated parts"));
