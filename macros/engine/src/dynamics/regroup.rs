@@ -20,7 +20,7 @@ pub fn regroup(g: &mut Graph, tree: &Tree) -> Tree {
     regroup_but(g, tree, false, &[])
 }
 
-/// The same for recursions from link to link: some mass stays at hinges ([`super::kept_masses`]), and of what a hinge turns into
+/// The same for recursions from link to link: some mass stays at hinges (`kept_masses`), and of what a hinge turns into
 /// itself a rotor is left, which turns about the hinge and has no moment of inertia across it.
 pub fn regroup_keeping(g: &mut Graph, tree: &Tree) -> Tree {
     regroup_as(g, tree, false, &[], true)
