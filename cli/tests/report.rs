@@ -162,7 +162,7 @@ fn losers_are_told_with_what_they_cost() {
 /// In packs what is taken may be dearer on scalars than what has lost.
 #[test]
 fn losers_that_packs_would_save_less_of() {
-    let text = page("platform.rs", "packs", &[]);
+    let text = page("../../../benches/peers/ours/src/loops.rs", "packs", &["--model", "stewart_packed"]);
     assert!(text.contains(", and more in packs"));
 }
 
