@@ -30,6 +30,8 @@ mod shared;
 pub mod singular;
 mod speeds;
 mod springs;
+mod statics;
+mod stress;
 mod tape;
 mod teeth;
 mod written;
@@ -39,7 +41,9 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 use crate::model::site::{Site, Sited};
 use crate::model::types::{Coordinate, DriveTarget, Handling, JointId, LoopClosure, Model};
 
-use super::loops::constraints::{self, closings, coordinate_name, rate_rows, row_count, row_name, turns};
+use super::loops::constraints::{
+    self, ClosedIn, Writing, closings, coordinate_name, rate_rows, row_count, row_name, turns,
+};
 use super::loops::groups;
 use super::loops::structure::{Means, Role, Row, Step, Structure};
 use super::translate::{division, formulas};
@@ -67,8 +71,20 @@ pub struct Complaint {
     pub help: Option<String>,
 }
 
-/// Splits a model's coordinates and equations.
+/// Splits a model's coordinates and equations. Which components of a way between points are left out depends on the axes, and with it
+/// whether what is read of reactions is determined: those are taken in which it is.
 pub fn analyse(model: &Model) -> Result<Structure, Vec<Complaint>> {
+    let structure = analyse_in(model, Writing::PLAIN)?;
+    let complaints = stress::complaints(model, &structure, Writing::PLAIN);
+    if complaints.is_empty() {
+        return Ok(structure);
+    }
+    let others = [ClosedIn::ParentBase, ClosedIn::Parent, ClosedIn::Child];
+    let mut others = others.into_iter().filter_map(|axes| analyse_in(model, Writing { axes, ..Writing::PLAIN }).ok());
+    others.find(|other| stress::are_determined(model, other, other.writing)).ok_or(complaints)
+}
+
+fn analyse_in(model: &Model, writing: Writing) -> Result<Structure, Vec<Complaint>> {
     formulas::complaints(model)?;
     let divided = division::complaints(model);
     if !divided.is_empty() {
@@ -78,7 +94,7 @@ pub fn analyse(model: &Model) -> Result<Structure, Vec<Complaint>> {
     if !staying.is_empty() {
         return Err(staying);
     }
-    let mut structure = Structure::open(model);
+    let mut structure = Structure { writing, ..Structure::open(model) };
     structure.groups = groups::find(model);
     if model.cuts.is_empty() && model.constraints.is_empty() && model.drives.is_empty() && model.speeds.is_empty() {
         return Ok(structure);
@@ -95,7 +111,7 @@ pub fn analyse(model: &Model) -> Result<Structure, Vec<Complaint>> {
         Analysis { model, complaints: Vec::new(), driven: HashMap::new(), steps: Vec::new(), samples: Vec::new() };
     analysis.drive();
     let looped = !model.cuts.is_empty() || !model.constraints.is_empty() || !model.speeds.is_empty();
-    let problem = looped.then(|| Problem::new(model));
+    let problem = looped.then(|| Problem::written(model, writing));
     if let Some(problem) = &problem {
         analysis.run(problem, &mut structure);
     }
@@ -299,7 +315,7 @@ impl<'m> Analysis<'m> {
         if dropped.is_empty() || !adjustable {
             return independent;
         }
-        let moved = Problem::with(self.model, OFF);
+        let moved = problem.moved(self.model, OFF);
         let effort = Effort::of(group.equations.len());
         let found = configurations::configurations(&moved, &group.equations, &group.columns, effort);
         let closed: Vec<&[Vec<f64>]> =

@@ -170,7 +170,7 @@ pub fn hopes(model: &Model, structure: &Structure, share: f64) -> Result<Vec<Vec
     deriving.check()?;
     let mut all: Vec<Vec<(Coordinate, Hope)>> = Vec::new();
     let ways =
-        if freedoms(model) > MOST_COMPOSITE { vec![Writing::PLAIN] } else { Writings::new(model, structure).ways() };
+        if freedoms(model) > MOST_COMPOSITE { vec![structure.writing] } else { Writings::new(model, structure).ways() };
     for writing in ways {
         deriving.writing = writing;
         let mut found = Vec::new();
@@ -301,7 +301,7 @@ impl<'m> Deriving<'m> {
             graph,
             symbols: Rc::new(symbols),
             decided: Decided::default(),
-            writing: Writing::PLAIN,
+            writing: structure.writing,
             notes: Vec::new(),
             dead_centres: Vec::new(),
             modes: None,
@@ -464,7 +464,7 @@ impl<'m> Deriving<'m> {
                 least = Some((weight, writing));
             }
         }
-        self.writing = least.map_or(Writing::PLAIN, |(_, writing)| writing);
+        self.writing = least.map_or(structure.writing, |(_, writing)| writing);
         Ok(())
     }
 }

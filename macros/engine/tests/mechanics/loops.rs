@@ -7,7 +7,16 @@ use multibody_engine::model::types::Coordinate;
 
 use super::support::*;
 
+/// What acts from outside: gravity, and wind at a place of the third body.
+struct Outside {
+    gravity: [f64; 3],
+    wind: [f64; 3],
+}
+
 const GRAVITY: [f64; 3] = [1.0, -9.0, 2.0];
+const OUTSIDE: Outside = Outside { gravity: GRAVITY, wind: [3.0, -2.0, 5.0] };
+/// In the plane of bars, whose hinges share all other loads as rigid bodies don't tell.
+const IN_PLANE: Outside = Outside { gravity: [1.0, -9.0, 0.0], wind: [3.0, -2.0, 0.0] };
 
 /// A body: name, mass, centre of mass, moments of inertia and products; joints that it hangs on with the sign of their
 /// reactions.
@@ -65,25 +74,35 @@ fn joints(list: &[(&str, &str)]) -> String {
 
 const BARS: [&Body; 3] = [&ONE, &TWO, &THREE];
 
-/// Bars in a plane, with a spring, a torque and a pump across the pin.
+const FLAT: [&Body; 3] = [
+    &Body { com: [0.5, 0.1, 0.0], inertia: [0.5, 0.6, 0.7, 0.02, 0.0, 0.0], ..ONE },
+    &Body { com: [1.1, -0.2, 0.0], inertia: [0.3, 0.2, 0.4, 0.01, 0.0, 0.0], ..TWO },
+    &Body { com: [0.9, 0.2, 0.0], inertia: [0.4, 0.5, 0.3, -0.02, 0.0, 0.0], ..THREE },
+];
+
+/// Bars in a plane, with a torque, wind, and what is read of them.
 fn four_bar(items: &str, pin: &str) -> String {
+    let read = joints(&[("crank", "one"), ("coupler", "two"), ("rocker", "three"), ("pin", "three.at(2.0 * X)")]);
+    bars(&format!("{items} {read}"), pin)
+}
+
+fn bars(items: &str, pin: &str) -> String {
+    let Outside { gravity, wind } = IN_PLANE;
     format!(
-        "world {{ gravity: {GRAVITY:?} }}
+        "world {{ gravity: {gravity:?} }}
         {} {items}
         joint crank: Revolute {{ parent: ground, child: one, axis: Z }}
         joint coupler: Revolute {{ parent: one.at(X), child: two, axis: Z }}
         joint rocker: Revolute {{ parent: ground.at(3.0 * X), child: three, axis: Z }}
         #[cut]
         joint pin: {pin} {{ parent: two.at(2.5 * X), child: three.at(2.0 * X), axis: Z }}
-        force wind: Force {{ at: three.at([0.3, 0.2, 0.1]), value: [3.0, -2.0, 5.0], axes: ground }}
+        force wind: Force {{ at: three.at([0.3, 0.2, 0.0]), value: {wind:?}, axes: ground }}
         force motor: Effort {{ joint: crank, value: 4.0 }}
-        output place = three.at([0.3, 0.2, 0.1]).position;
+        output place = three.at([0.3, 0.2, 0.0]).position;
         output values = [coupler, rocker];
         output rates = [coupler.rate, rocker.rate];
-        {}
         emit forward_dynamics;",
-        BARS.map(text_of).concat(),
-        joints(&[("crank", "one"), ("coupler", "two"), ("rocker", "three"), ("pin", "three.at(2.0 * X)")])
+        FLAT.map(text_of).concat()
     )
 }
 
@@ -102,7 +121,7 @@ fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
 
 /// What is left of m (a - g) = F and of J w' + w x J w = M about the centre of mass, with further forces at points and
 /// moments.
-fn imbalance(case: &Case, point: &Point, body: &Body, others: &[([f64; 3], [f64; 3])]) -> [f64; 6] {
+fn imbalance(case: &Case, point: &Point, body: &Body, gravity: [f64; 3], others: &[([f64; 3], [f64; 3])]) -> [f64; 6] {
     let get = |what: &str| vector(case, &format!("{}_{what}", body.name), point);
     let (com, a, w, alpha) = (get("com"), get("acceleration"), get("spin"), get("spin_rate"));
     let r = case.output(&format!("{}_rotation", body.name), point);
@@ -110,7 +129,7 @@ fn imbalance(case: &Case, point: &Point, body: &Body, others: &[([f64; 3], [f64;
     let [xx, yy, zz, xy, xz, yz] = body.inertia;
     let tensor = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
     let tensor = times(&times(&r, &tensor), &transpose(&r));
-    let mut force = minus(a, GRAVITY).map(|x| body.mass * x);
+    let mut force = minus(a, gravity).map(|x| body.mass * x);
     let mut moment = plus(&apply(&tensor, &alpha), &cross(w, apply(&tensor, &w)));
     let mut act = |at: [f64; 3], f: [f64; 3], m: [f64; 3]| {
         force = minus(force, f);
@@ -141,11 +160,16 @@ fn settle(case: &Case, point: &mut Point, start: &[f64]) {
 }
 
 /// All bodies balance, with the wind on one of them.
-fn balanced(what: &str, case: &Case, point: &Point, bodies: &[&Body]) {
-    let wind = [(vector(case, "place", point), [3.0, -2.0, 5.0])];
+fn balanced(what: &str, case: &Case, point: &Point, bodies: &[&Body], outside: &Outside) {
+    let wind = [(vector(case, "place", point), outside.wind)];
     for body in bodies {
         let others = if body.name == "three" { &wind[..] } else { &[] };
-        close(&format!("{what}: {}", body.name), &imbalance(case, point, body, others), &[0.0; 6], 1e-11);
+        close(
+            &format!("{what}: {}", body.name),
+            &imbalance(case, point, body, outside.gravity, others),
+            &[0.0; 6],
+            1e-11,
+        );
     }
 }
 
@@ -194,11 +218,11 @@ fn four_bars_balance() {
         for seed in 1..4 {
             let mut point = reduced.random(seed);
             settle(&reduced, &mut point, &[0.3, 1.8]);
-            balanced("reduced", &reduced, &point, &BARS);
+            balanced("reduced", &reduced, &point, &FLAT, &IN_PLANE);
             close("about the pin", &reduced.output("pin_reaction", &point)[5..], &[moment], 1e-11);
             close("motor", &reduced.output("crank_reaction", &point)[5..], &[4.0], 1e-11);
             let other = taken(&held, &reduced, &point, &[("crank", 0)], &[("coupler", 0), ("rocker", 0)]);
-            balanced("multipliers", &held, &other, &BARS);
+            balanced("multipliers", &held, &other, &FLAT, &IN_PLANE);
             agree(pin, &REACTIONS, (&held, &other), (&reduced, &point));
         }
     }
@@ -213,11 +237,11 @@ fn driven_four_bars_balance() {
     for seed in 1..4 {
         let mut point = reduced.random(seed);
         settle(&reduced, &mut point, &[0.3, 1.8]);
-        balanced("reduced", &reduced, &point, &BARS);
+        balanced("reduced", &reduced, &point, &FLAT, &IN_PLANE);
         let effort = reduced.output("effort", &point)[0];
         close("drive", &reduced.output("crank_reaction", &point)[5..], &[4.0 + effort], 1e-11);
         let other = taken(&held, &reduced, &point, &[], &[("coupler", 0), ("rocker", 0)]);
-        balanced("multipliers", &held, &other, &BARS);
+        balanced("multipliers", &held, &other, &FLAT, &IN_PLANE);
         agree("driven", &REACTIONS, (&held, &other), (&reduced, &point));
         agree("drive", &["effort"], (&held, &other), (&reduced, &point));
     }
@@ -254,12 +278,12 @@ fn spatial_loops_balance() {
         let crank = symbols(&reduced, ("crank", 0))[0];
         point.set(crank, 0.2 * point.get(crank));
         settle(&reduced, &mut point, &[0.2, -0.1, 0.0]);
-        balanced("reduced", &reduced, &point, &BARS);
+        balanced("reduced", &reduced, &point, &BARS, &OUTSIDE);
         // A ball transmits its own torques, given in the child's axes.
         close("twist", &reduced.output("pin_own", &point)[3..], &[0.3, -0.5, 0.7], 1e-11);
         let found = [("coupler", 0), ("coupler", 1), ("rocker", 0)];
         let other = taken(&held, &reduced, &point, &[("crank", 0)], &found);
-        balanced("multipliers", &held, &other, &BARS);
+        balanced("multipliers", &held, &other, &BARS, &OUTSIDE);
         agree("spatial", &REACTIONS, (&held, &other), (&reduced, &point));
     }
 }
@@ -270,15 +294,16 @@ fn geared_loops_balance() {
     const LINK: Body = Body {
         name: "link",
         mass: 0.9,
-        com: [0.6, 0.1, -0.3],
-        inertia: [0.2, 0.3, 0.25, 0.01, -0.01, 0.02],
+        com: [0.6, 0.1, 0.0],
+        inertia: [0.2, 0.3, 0.25, 0.01, 0.0, 0.0],
         joints: &[("arm", 1.0), ("pin", 1.0)],
     };
-    const BASE: Body = Body { joints: &[("rocker", 1.0), ("arm", -1.0)], ..THREE };
-    let bodies = [&ONE, &TWO, &BASE, &LINK];
+    const BASE: Body = Body { joints: &[("rocker", 1.0), ("arm", -1.0)], ..*FLAT[2] };
+    let bodies = [FLAT[0], FLAT[1], &BASE, &LINK];
+    let Outside { gravity, wind } = IN_PLANE;
     let text = |gear: &str, other: &str, items: &str| {
         format!(
-            "world {{ gravity: {GRAVITY:?} }}
+            "world {{ gravity: {gravity:?} }}
             {} {items}
             joint crank: Revolute {{ parent: ground, child: one, axis: Z }}
             joint coupler: Revolute {{ parent: one.at(X), child: two, axis: Z }}
@@ -287,8 +312,8 @@ fn geared_loops_balance() {
             #[cut]
             joint pin: Revolute {{ parent: two.at(2.0 * X), child: link.at(2.0 * X), axis: Z }}
             constraint gear = {gear};
-            force wind: Force {{ at: three.at([0.3, 0.2, 0.1]), value: [3.0, -2.0, 5.0], axes: ground }}
-            output place = three.at([0.3, 0.2, 0.1]).position;
+            force wind: Force {{ at: three.at([0.3, 0.2, 0.0]), value: {wind:?}, axes: ground }}
+            output place = three.at([0.3, 0.2, 0.0]).position;
             output values = [coupler, {other}];
             output rates = [coupler.rate, {other}.rate];
             {}
@@ -313,14 +338,14 @@ fn geared_loops_balance() {
             let crank = symbols(&reduced, ("crank", 0))[0];
             point.set(crank, 0.3 * point.get(crank));
             settle(&reduced, &mut point, &start);
-            balanced("reduced", &reduced, &point, &bodies);
+            balanced("reduced", &reduced, &point, &bodies, &IN_PLANE);
             // The gear's torques do no work together.
             let about = |name: &str| reduced.output(&format!("{name}_reaction"), &point)[5];
             close("gear", &[about(driving)], &[ratio * about(driven)], 1e-11);
             assert!(about(driven).abs() > 1e-3, "{gear}");
             let found = [("coupler", 0), (other, 0)];
             let other = taken(&held, &reduced, &point, &[("crank", 0)], &found);
-            balanced("multipliers", &held, &other, &bodies);
+            balanced("multipliers", &held, &other, &bodies, &IN_PLANE);
             agree("gears", &REACTIONS, (&held, &other), (&reduced, &point));
             agree("gears", &["arm_reaction"], (&held, &other), (&reduced, &point));
         }
@@ -373,11 +398,11 @@ fn legs_balance() {
     let free: Vec<Name> = (0..6).map(|k| ("base", k)).collect();
     for seed in 1..4 {
         let point = reduced.random(seed);
-        balanced("reduced", &reduced, &point, &bodies);
+        balanced("reduced", &reduced, &point, &bodies, &OUTSIDE);
         close("nothing holds", &reduced.output("free", &point), &[0.0; 6], 1e-11);
         let found = [("gimbal", 0), ("gimbal", 1), ("stroke", 0)];
         let other = taken(&held, &reduced, &point, &free, &found);
-        balanced("multipliers", &held, &other, &bodies);
+        balanced("multipliers", &held, &other, &bodies, &OUTSIDE);
         let names = ["gimbal_reaction", "stroke_reaction", "ball_reaction", "weld_reaction"];
         agree("leg", &names, (&held, &other), (&reduced, &point));
     }
@@ -420,7 +445,7 @@ fn every_closing_balances() {
         for (k, &x) in offset.iter().enumerate() {
             point.set(symbols(&case, ("rocker", k))[0], x);
         }
-        balanced(pin, &case, &point, &BARS);
+        balanced(pin, &case, &point, &BARS, &OUTSIDE);
         // The free body is held by the pin alone.
         close("nothing holds", &case.output("rocker_reaction", &point), &[0.0; 6], 1e-11);
     }
@@ -467,9 +492,9 @@ fn margins_have_their_rates() {
         text.replace("ground,", "ground.rotated([1, 2, 0.5], 0.7),")
             .replace("ground.at", "ground.rotated([1, 2, 0.5], 0.7).at")
     };
-    let closed = case(&turned(four_bar(&format!("{REDUCED} {solve}"), "Revolute").replace("2.5 * X", "1.2 * X")));
+    let closed = case(&turned(bars(&format!("{REDUCED} {solve}"), "Revolute").replace("2.5 * X", "1.2 * X")));
     let newton = "formulation { constraints: Reduced, independent: [crank] }";
-    let newton = case(&turned(four_bar(newton, "Revolute").replace("2.5 * X", "1.2 * X")));
+    let newton = case(&turned(bars(newton, "Revolute").replace("2.5 * X", "1.2 * X")));
     let (speed, step) = (0.8, 1e-6);
     let mut ratio = None;
     for crank in [0.3, 0.9, -1.2, 1.5, 1.6] {

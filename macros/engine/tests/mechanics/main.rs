@@ -41,6 +41,7 @@ mod rates;
 mod reactions;
 mod scaling;
 mod several_closings;
+mod shared_loads;
 mod speeds;
 mod support;
 mod systems;

@@ -39,7 +39,7 @@ pub struct Pose {
 
 /// Closings, and closed poses at time zero of which the first is the default one; nothing where no pose has the state where it stands by default.
 pub fn closable(model: &Model, structure: &Structure) -> Option<(Vec<Closable>, Vec<Pose>)> {
-    let problem = Problem::new(model);
+    let problem = Problem::written(model, structure.writing);
     let first = structure.closed.first().map(|closed| problem.at(&closed.positions))?;
     let origin = problem.origin();
     let stands = |column: usize| match (problem.value_of(&first, column), problem.value_of(&origin, column)) {

@@ -45,7 +45,7 @@ pub(super) fn assembly(model: &Model, structure: &Structure) -> Result<Option<Rc
 
 /// Whether formulas lead from what is given to what is to be found, as far as equations read coordinates.
 fn leads(model: &Model, solved: &Structure, wanted: &Kinematics) -> bool {
-    let problem = Problem::new(model);
+    let problem = Problem::written(model, solved.writing);
     let (mut open, mut seen) = (wanted.find.clone(), Vec::new());
     while let Some(coordinate) = open.pop() {
         if seen.contains(&coordinate) || wanted.given.contains(&coordinate.joint) {

@@ -66,7 +66,7 @@ pub(super) fn notes(model: &Model, problem: &Problem, structure: &Structure) -> 
         return vec!["no combination of the equations of velocities integrates to positions".to_owned()];
     }
     if problem.is_adjustable() {
-        let moved = Problem::with(model, OFF);
+        let moved = problem.moved(model, OFF);
         let moved = Survey::new(&moved, structure);
         for one in &mut found {
             one.declared = moved.count(&one.rates).is_none_or(|count| count < one.count);

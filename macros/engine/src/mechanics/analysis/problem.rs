@@ -116,6 +116,7 @@ struct Condition {
 }
 
 pub(super) struct Problem {
+    writing: Writing,
     pub(super) tape: Tape,
     pub equations: Vec<Equation>,
     pub columns: Vec<Column>,
@@ -155,18 +156,14 @@ pub(super) struct Linearised {
 }
 
 impl Problem {
-    pub(super) fn new(model: &Model) -> Problem {
-        Problem::with(model, 0.0)
-    }
-
-    /// With parameters that are off their defaults by about this much.
-    pub(super) fn with(model: &Model, off: f64) -> Problem {
-        formulate(model, off, Writing::PLAIN)
-    }
-
     /// With equations of loops in other axes.
     pub(super) fn written(model: &Model, writing: Writing) -> Problem {
         formulate(model, 0.0, writing)
+    }
+
+    /// The same with parameters that are off their defaults by about this much.
+    pub(super) fn moved(&self, model: &Model, off: f64) -> Problem {
+        formulate(model, off, self.writing)
     }
 
     /// Equations that depend on no coordinate. Those of time are looked at twice: it should make no difference to them.

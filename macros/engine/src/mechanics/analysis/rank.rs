@@ -8,6 +8,9 @@ use super::singular::{add, dot};
 /// A row is new if this much of it stands across all kept ones.
 const NEW: f64 = 1e-6;
 
+/// What is left of a unit row that depends on others.
+pub(super) const DEPENDENT: f64 = 1e-7;
+
 /// An orthonormal basis that grows.
 #[derive(Clone, Default)]
 pub(super) struct Basis {
@@ -81,4 +84,28 @@ pub(super) fn rank(jacobians: &[&[Vec<f64>]], rows: &[usize], columns: &[bool]) 
         basis.len()
     };
     jacobians.iter().map(rank_of).max().unwrap_or(0)
+}
+
+/// Combinations of rows that vanish, one for each row that follows from those before it: what is left of a row beside these is a combination of
+/// rows, which is kept along (Gram and Schmidt, twice). Rows are unit or zero.
+pub(super) fn combinations(rows: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let mut found = Vec::new();
+    let mut basis: Vec<(Vec<f64>, Vec<f64>)> = Vec::new();
+    for (k, row) in rows.iter().enumerate() {
+        let (mut rest, mut of_rows) = (row.clone(), vec![0.0; rows.len()]);
+        of_rows[k] = 1.0;
+        for (unit, combination) in basis.iter().chain(&basis) {
+            let along = dot(unit, &rest);
+            add(&mut rest, -along, unit);
+            add(&mut of_rows, -along, combination);
+        }
+        let norm = dot(&rest, &rest).sqrt();
+        if norm > DEPENDENT {
+            rest.iter_mut().chain(&mut of_rows).for_each(|x| *x /= norm);
+            basis.push((rest, of_rows));
+        } else {
+            found.push(of_rows);
+        }
+    }
+    found
 }

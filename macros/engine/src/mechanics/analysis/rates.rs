@@ -69,7 +69,7 @@ pub(super) fn keep(model: &Model, problem: &Problem, structure: &mut Structure) 
         let partners = judge.partners(number, &kept);
         let anywhere = if proof { None } else { judge.anywhere(problem, number, &kept) };
         let robust = || {
-            let moved = Problem::with(model, OFF);
+            let moved = problem.moved(model, OFF);
             match anywhere {
                 Some(_) => judge.anywhere(&moved, number, &kept) == anywhere,
                 None => judge.with_other_parameters(&moved, number, &kept),

@@ -37,7 +37,7 @@ pub fn relations(
     structure: &Structure,
     may: impl Fn(Coordinate, Coordinate) -> bool,
 ) -> Vec<(Coordinate, Relation)> {
-    let problem = Problem::new(model);
+    let problem = Problem::written(model, structure.writing);
     let poses = poses(&problem, structure);
     if poses.len() < LEAST_POSES {
         return Vec::new();

@@ -11,12 +11,8 @@ use crate::mechanics::translate::manipulations;
 use crate::model::types::Model;
 
 use super::problem::{Point, Problem, Source};
-use super::rates;
-use super::singular::{add, dot};
 use super::tape::Values;
-
-/// What is left of a unit row that depends on others.
-const DEPENDENT: f64 = 1e-7;
+use super::{rank, rates};
 
 pub(super) fn shared(model: &Model, problem: &Problem, structure: &Structure) -> Vec<Row> {
     // Nobody else asks.
@@ -35,26 +31,11 @@ pub(super) fn shared(model: &Model, problem: &Problem, structure: &Structure) ->
     at_all.into_iter().flatten().filter(|one| one.1).map(|one| one.0).collect()
 }
 
-/// Whether each row takes part in a combination of rows that vanishes: what is left of a row beside those before it is a combination of
-/// rows, which is kept along (Gram and Schmidt, twice).
+/// Whether each row takes part in a combination of rows that vanishes.
 fn dependent(rows: &[Vec<f64>]) -> Vec<bool> {
     let mut depends = vec![false; rows.len()];
-    let mut basis: Vec<(Vec<f64>, Vec<f64>)> = Vec::new();
-    for (k, row) in rows.iter().enumerate() {
-        let (mut rest, mut of_rows) = (row.clone(), vec![0.0; rows.len()]);
-        of_rows[k] = 1.0;
-        for (unit, combination) in basis.iter().chain(&basis) {
-            let along = dot(unit, &rest);
-            add(&mut rest, -along, unit);
-            add(&mut of_rows, -along, combination);
-        }
-        let norm = dot(&rest, &rest).sqrt();
-        if norm > DEPENDENT {
-            rest.iter_mut().chain(&mut of_rows).for_each(|x| *x /= norm);
-            basis.push((rest, of_rows));
-        } else if dot(row, row) > 0.0 {
-            depends.iter_mut().zip(&of_rows).for_each(|(depends, share)| *depends |= share.abs() > DEPENDENT);
-        }
+    for combination in rank::combinations(rows) {
+        depends.iter_mut().zip(&combination).for_each(|(depends, share)| *depends |= share.abs() > rank::DEPENDENT);
     }
     depends
 }

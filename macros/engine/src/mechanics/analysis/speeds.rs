@@ -97,7 +97,7 @@ impl Offered {
 /// leave the mechanism. Nothing where the model is refused without any.
 pub fn clear_speeds(model: &Model) -> Option<Vec<usize>> {
     let structure = super::analyse(&Model { speeds: Vec::new(), ..model.clone() }).ok()?;
-    let problem = Problem::new(model);
+    let problem = Problem::written(model, structure.writing);
     let points = points(&problem, &structure);
     let choice = Choice { model, problem: &problem, structure: &structure, points: &points };
     let mut values = Values::default();

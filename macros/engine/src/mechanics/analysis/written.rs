@@ -11,6 +11,7 @@ use crate::model::types::{ConstraintKind, Coordinate, JointId, LoopClosure, Mode
 
 use super::problem::Problem;
 use super::rank;
+use super::stress::are_determined;
 use super::tape::Values;
 
 /// Judges writings of one model.
@@ -25,7 +26,7 @@ impl<'m> Writings<'m> {
     pub(in super::super) fn new(model: &'m Model, structure: &'m Structure) -> Self {
         let mut writings = Writings { model, structure, ranks: None };
         if writings.is_partial() {
-            writings.ranks = Some(writings.ranks_in(Writing::PLAIN));
+            writings.ranks = Some(writings.ranks_in(structure.writing));
         }
         writings
     }
@@ -48,7 +49,10 @@ impl<'m> Writings<'m> {
     fn will_do(&self, writing: Writing) -> bool {
         let Some(ranks) = &self.ranks else { return true };
         // Without a closed configuration nothing is known of other axes.
-        writing == Writing::PLAIN || (!self.structure.closed.is_empty() && *ranks == self.ranks_in(writing))
+        writing == self.structure.writing
+            || (!self.structure.closed.is_empty()
+                && *ranks == self.ranks_in(writing)
+                && are_determined(self.model, self.structure, writing))
     }
 
     /// Whether some components of a way are kept and others are not. All three say the same in any axes.

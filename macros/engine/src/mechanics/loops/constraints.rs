@@ -76,6 +76,12 @@ pub struct Writing {
     pub style: Style,
 }
 
+impl Default for Writing {
+    fn default() -> Self {
+        Writing::PLAIN
+    }
+}
+
 impl Writing {
     /// What derivation tries.
     pub const ALL: [Writing; 12] = {

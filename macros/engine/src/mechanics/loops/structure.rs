@@ -13,7 +13,7 @@ use crate::mechanics::written::Page;
 use crate::model::types::{ConstraintId, Coordinate, ForceId, JointId, LoopClosure, Model};
 
 use super::advice::{Advice, Pivoted};
-use super::constraints::is_length;
+use super::constraints::{Writing, is_length};
 use super::groups::Group;
 
 /// The split of one model's coordinates and equations.
@@ -25,6 +25,8 @@ pub struct Structure {
     pub state: Vec<Coordinate>,
     /// Rates of the state that are no velocity coordinates.
     pub rates: DependentRates,
+    /// In which axes the equations below were chosen.
+    pub writing: Writing,
     /// Equations that keep a multiplier, in the order of multipliers.
     pub rows: Vec<Row>,
     /// Those among them that vanish or follow from others at the parameters' defaults, and not with others.

@@ -109,6 +109,7 @@ pub(super) fn formulate(model: &Model, off: f64, writing: Writing) -> Problem {
     let (conditions, assumptions) = (conditions.map(condition).collect(), assumptions.map(condition).collect());
     let defaults = defaults(model, &e.scene.symbols, off);
     let mut problem = Problem {
+        writing,
         tape,
         equations,
         columns,

@@ -1,0 +1,422 @@
+//! Stage `mechanics`: loads of all joints as numbers, at closed poses.
+//!
+//! In: a model with its structure, how its loops are written. Out: a [`Sample`] at a pose: velocities that the mechanism allows, the motion
+//! that follows from all loads, multipliers of the equations that were kept, and what self-stress adds to each. Equations of motion of
+//! all coordinates, e(q, v, a, lambda) = 0 where no drive holds, and the second derivatives of all equations of loops are one linear
+//! system for a and lambda. Self-stress s is what multipliers of all equations, those left out included, may have beside them: the columns of e by
+//! lambda, G^T, take it to nothing (Pellegrino and Calladine 1986). Inputs, states and parameters that have no say in loops are
+//! random, so that nothing rests on a mass or a load that is zero by default.
+
+use std::collections::HashSet;
+use std::ops::Range;
+use std::rc::Rc;
+
+use crate::contracts::symbol::Symbol;
+use crate::mechanics::equations::Equations;
+use crate::mechanics::loops::constraints::{Writing, closings, rate_rows, row_count};
+use crate::mechanics::loops::reduction::Reduction;
+use crate::mechanics::loops::structure::{Role, Row, Structure};
+use crate::mechanics::scene::{Choices, Scene};
+use crate::mechanics::translate::build::FixedFrame;
+use crate::mechanics::translate::dependencies::Dependencies;
+use crate::mechanics::translate::forces::LoadCase;
+use crate::mechanics::translate::symbols::Symbols;
+use crate::mechanics::translate::values::Value;
+use crate::model::types::{JointId, Model, Output};
+use crate::symbolic::graph::{Graph, Scalar};
+use crate::symbolic::lower::Lowering;
+
+use super::problem::{Problem, Random};
+use super::rank;
+use super::singular::{add, dot};
+use super::tape::{Tape, Values};
+
+/// A pivot that is this much of the greatest entry before elimination is none.
+const NO_PIVOT: f64 = 1e-11;
+/// Of a row with entries about one; less is rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// What is looked at, as programs for numbers.
+pub(super) struct Statics {
+    tape: Tape,
+    rows: Vec<Row>,
+    /// Places of rows that were not left out.
+    kept: Vec<usize>,
+    velocities: Vec<usize>,
+    /// Symbols of accelerations that no drive gives.
+    accelerations: Vec<usize>,
+    multipliers: Vec<usize>,
+    /// Symbols that don't stand at their defaults.
+    moved: Vec<usize>,
+    /// (symbol, root), of positions, velocities and accelerations.
+    driven: Vec<(usize, usize)>,
+    /// Roots: efforts where no drive holds, rates of rows and second derivatives.
+    efforts: Range<usize>,
+    rates: Range<usize>,
+    second: Range<usize>,
+    /// By joint, force and then moment in world axes.
+    wrenches: Range<usize>,
+    outputs: Vec<Range<usize>>,
+    values: Values,
+}
+
+/// What one pose shows.
+pub(super) struct Sample {
+    /// Values of all symbols.
+    at: Vec<f64>,
+    /// Of the equations that were kept; more than one solution where they depend on each other here.
+    pub multipliers: Vec<Vec<f64>>,
+    /// Self-stress by row, each with wrenches about as great as those of the loads.
+    pub stress: Vec<Vec<f64>>,
+}
+
+/// Force and moment by joint.
+pub(super) type Wrenches = Vec<[[f64; 3]; 2]>;
+
+/// Roots of one tape.
+#[derive(Default)]
+struct Roots(Vec<Scalar>);
+
+impl Roots {
+    fn extend(&mut self, values: impl IntoIterator<Item = Scalar>) -> Range<usize> {
+        let first = self.0.len();
+        self.0.extend(values);
+        first..self.0.len()
+    }
+}
+
+impl Statics {
+    pub(super) fn new(model: &Model, structure: &Structure, writing: Writing, outputs: &[&Output]) -> Statics {
+        let mut rows: Vec<Row> = closings(model)
+            .into_iter()
+            .flat_map(|closing| (0..row_count(model, closing)).map(move |index| Row { closing, index }))
+            .collect();
+        rows.extend(rate_rows(model));
+        let mut e = held(model, rows.clone(), writing, outputs);
+        let mut roots = Roots::default();
+        let symbols = Rc::clone(&e.scene.symbols);
+        let number = |e: &Equations<'_>, s: Scalar| e.g.symbol_id(s).map(|id| id.0);
+        let is_driven =
+            |place: usize| symbols.coordinate_at(place).is_some_and(|c| matches!(structure.role(c), Role::Driven(_)));
+        let free: Vec<usize> = (0..symbols.freedoms).filter(|&place| !is_driven(place)).collect();
+        let in_places = |e: &Equations<'_>, lists: &[Vec<Scalar>]| {
+            let all = lists.concat();
+            free.iter().filter_map(|&place| number(e, *all.get(place)?)).collect::<Vec<usize>>()
+        };
+        let efforts = e.inverse_dynamics(LoadCase::Held);
+        let efforts = roots.extend(free.iter().map(|&place| efforts[place]));
+        let pairs: Vec<(Scalar, Scalar)> = rows.iter().map(|&row| e.row_rates(row)).collect();
+        let rates = roots.extend(pairs.iter().map(|pair| pair.0));
+        let second = roots.extend(pairs.iter().map(|pair| pair.1));
+        let mut reduction = Reduction::default();
+        e.drive(&mut reduction);
+        let mut followed: Vec<(usize, Scalar)> = reduction.map.iter().map(|(id, &value)| (id.0, value)).collect();
+        followed.sort_unstable_by_key(|one| one.0);
+        let courses = roots.extend(followed.iter().map(|one| one.1));
+        let driven: Vec<(usize, usize)> = followed.iter().map(|one| one.0).zip(courses).collect();
+        let joints: Vec<Scalar> =
+            (0..model.joints.len()).flat_map(|joint| e.transmitted_in_world(JointId(joint))).collect();
+        let wrenches = roots.extend(joints);
+        let read: Vec<Range<usize>> = outputs
+            .iter()
+            .map(|output| {
+                let value = e.value(&output.value);
+                let mut list = Vec::new();
+                value.flatten(&mut e.g, &mut list);
+                roots.extend(list)
+            })
+            .collect();
+        let mut lowering = Lowering::new(&e.g);
+        let lowered = lowering.run(&roots.0);
+        let tape = Tape::new(&lowering.to, &lowered);
+        let closing: HashSet<usize> = rates.clone().chain(second.clone()).flat_map(|root| tape.symbols(root)).collect();
+        let of_drives: HashSet<usize> = courses_of(&driven).flat_map(|root| tape.symbols(root)).collect();
+        let is_moved = |&k: &usize| match symbols.table[k] {
+            Symbol::Input { .. } | Symbol::State { .. } => true,
+            Symbol::Param { .. } => !closing.contains(&k) && !of_drives.contains(&k),
+            _ => false,
+        };
+        let kept = (0..rows.len()).filter(|&k| !structure.dropped.contains(&rows[k])).collect();
+        Statics {
+            kept,
+            velocities: in_places(&e, &symbols.velocities),
+            accelerations: in_places(&e, &symbols.accelerations),
+            multipliers: symbols.multipliers.iter().filter_map(|&s| number(&e, s)).collect(),
+            moved: (0..symbols.table.len()).filter(is_moved).collect(),
+            tape,
+            rows,
+            driven,
+            efforts,
+            rates,
+            second,
+            wrenches,
+            outputs: read,
+            values: Values::default(),
+        }
+    }
+
+    pub(super) fn rows(&self) -> &[Row] {
+        &self.rows
+    }
+
+    /// At a closed pose; nothing where the mechanism allows no velocities there, or something has no number.
+    pub(super) fn sample(&mut self, problem: &Problem, positions: &[Vec<f64>], random: &mut Random) -> Option<Sample> {
+        let mut at = problem.at(positions).0;
+        let count = self.multipliers.iter().max().map_or(0, |most| most + 1).max(at.len());
+        at.resize(count, 0.0);
+        for &symbol in &self.moved {
+            at[symbol] = at[symbol] * (1.0 + 0.3 * random.next()) + 0.3 * random.next();
+        }
+        self.tape.run_for(&mut self.values, &at, self.driven.iter().map(|one| one.1));
+        for &(symbol, root) in &self.driven {
+            at[symbol] = self.tape.value(&self.values, root);
+        }
+        self.velocities.iter().for_each(|&symbol| at[symbol] = random.next());
+        self.move_along(&mut at)?;
+        let columns: Vec<usize> = self.accelerations.iter().chain(&self.multipliers).copied().collect();
+        let forces = self.linear(&at, self.efforts.clone(), &columns);
+        let closings = self.linear(&at, self.second.clone(), &columns);
+        let freedoms = self.accelerations.len();
+        let stress = stresses(&forces.0, freedoms, self.rows.len());
+        let kept: Vec<&Vec<f64>> = self.kept.iter().map(|&k| &closings.0[k]).collect();
+        let dependent = !rank::combinations(&unit(kept.iter().map(|row| row[..freedoms].to_vec()))).is_empty();
+        // As the runtime's pivots fall, or as they don't.
+        let ways = if dependent { 2 } else { 1 };
+        let mut multipliers = Vec::new();
+        for way in 0..ways {
+            let weight = |k: usize| if way == 0 { 1.0 } else { [1.0, 0.2, 4.0, 0.7, 2.0][k % 5] };
+            let in_kept = |row: &[f64]| -> Vec<f64> {
+                let own = self.kept.iter().enumerate().map(|(k, &place)| row[freedoms + place] * weight(k));
+                row[..freedoms].iter().copied().chain(own).collect()
+            };
+            let mut matrix: Vec<Vec<f64>> = forces.0.iter().map(|row| in_kept(row)).collect();
+            matrix.extend(
+                self.kept
+                    .iter()
+                    .enumerate()
+                    .map(|(k, &place)| in_kept(&closings.0[place]).into_iter().map(|x| x * weight(k)).collect()),
+            );
+            let mut rest: Vec<f64> = forces.1.iter().map(|x| -x).collect();
+            rest.extend(self.kept.iter().enumerate().map(|(k, &place)| -closings.1[place] * weight(k)));
+            let solution = pivoted(matrix, rest);
+            if way == 0 {
+                for (&symbol, x) in self.accelerations.iter().zip(&solution) {
+                    at[symbol] = *x;
+                }
+            }
+            let mut all = vec![0.0; self.rows.len()];
+            for (k, &place) in self.kept.iter().enumerate() {
+                all[place] = solution[freedoms + k] * weight(k);
+            }
+            multipliers.push(all);
+        }
+        let mut sample = Sample { at, multipliers, stress: Vec::new() };
+        let zero = vec![0.0; self.rows.len()];
+        let still = self.wrenches(&sample, &zero);
+        let size = greatest(&self.wrenches(&sample, &sample.multipliers[0].clone()));
+        if !size.is_finite() {
+            return None;
+        }
+        sample.stress = stress
+            .into_iter()
+            .map(|mut stress| {
+                let response = greatest(&difference(&self.wrenches(&sample, &stress), &still));
+                let factor = if response > ROUNDING { size / response } else { 1.0 };
+                stress.iter_mut().for_each(|x| *x *= factor);
+                stress
+            })
+            .collect();
+        Some(sample)
+    }
+
+    /// Velocities become the nearest ones that the equations allow.
+    fn move_along(&mut self, at: &mut [f64]) -> Option<()> {
+        let (rows, rest) = self.linear_at(at, self.rates.clone(), &self.velocities.clone());
+        let step = least(&rows, &rest);
+        for (&symbol, step) in self.velocities.iter().zip(step) {
+            at[symbol] -= step;
+        }
+        self.tape.run_for(&mut self.values, at, self.rates.clone());
+        let left = self.rates.clone().map(|root| self.tape.value(&self.values, root).abs()).fold(0.0, f64::max);
+        (left < 1e-6).then_some(())
+    }
+
+    /// Roots with accelerations and multipliers at zero, and their slopes.
+    fn linear(&mut self, at: &[f64], roots: Range<usize>, columns: &[usize]) -> (Vec<Vec<f64>>, Vec<f64>) {
+        let mut still = at.to_vec();
+        columns.iter().for_each(|&symbol| still[symbol] = 0.0);
+        self.linear_at(&still, roots, columns)
+    }
+
+    fn linear_at(&mut self, at: &[f64], roots: Range<usize>, columns: &[usize]) -> (Vec<Vec<f64>>, Vec<f64>) {
+        self.tape.run_for(&mut self.values, at, roots.clone());
+        let mut place = vec![usize::MAX; at.len()];
+        columns.iter().enumerate().for_each(|(k, &symbol)| place[symbol] = k);
+        let (mut rows, mut rest) = (Vec::new(), Vec::new());
+        for root in roots {
+            rest.push(self.tape.value(&self.values, root));
+            let mut row = vec![0.0; columns.len()];
+            self.tape.gradient(&mut self.values, root, |symbol, slope| {
+                if let Some(entry) = place.get(symbol).and_then(|&k| row.get_mut(k)) {
+                    *entry += slope;
+                }
+            });
+            rows.push(row);
+        }
+        (rows, rest)
+    }
+
+    fn run(&mut self, sample: &Sample, multipliers: &[f64], roots: Range<usize>) -> Vec<f64> {
+        let mut at = sample.at.clone();
+        self.multipliers.iter().zip(multipliers).for_each(|(&symbol, &x)| at[symbol] = x);
+        self.tape.run_for(&mut self.values, &at, roots.clone());
+        roots.map(|root| self.tape.value(&self.values, root)).collect()
+    }
+
+    /// What joints transmit under some multipliers, at their child frames in world axes.
+    pub(super) fn wrenches(&mut self, sample: &Sample, multipliers: &[f64]) -> Wrenches {
+        let list = self.run(sample, multipliers, self.wrenches.clone());
+        list.chunks(6).map(|w| [[w[0], w[1], w[2]], [w[3], w[4], w[5]]]).collect()
+    }
+
+    /// An output's scalars under some multipliers.
+    pub(super) fn output(&mut self, sample: &Sample, multipliers: &[f64], output: usize) -> Vec<f64> {
+        self.run(sample, multipliers, self.outputs[output].clone())
+    }
+
+    /// What changes of an output's scalars are made of, if multipliers change by so much, with nothing cancelled.
+    pub(super) fn bounds(&mut self, sample: &Sample, step: &[f64], output: usize) -> Vec<f64> {
+        let roots = self.outputs[output].clone();
+        let mut units = vec![0.0; sample.at.len()];
+        self.multipliers.iter().zip(step).for_each(|(&symbol, &step)| units[symbol] = step);
+        self.tape.run_for(&mut self.values, &sample.at, roots.clone());
+        roots.map(|root| self.tape.slope_bound(&self.values, root, |symbol| units[symbol])).collect()
+    }
+}
+
+fn courses_of(driven: &[(usize, usize)]) -> impl Iterator<Item = usize> + '_ {
+    driven.iter().map(|one| one.1)
+}
+
+/// A model whose loops are all held by multipliers, none left out, with accelerations as symbols.
+fn held<'m>(model: &'m Model, rows: Vec<Row>, writing: Writing, outputs: &[&Output]) -> Equations<'m> {
+    let mut graph = Graph::new();
+    let structure = Structure { rows, ..Structure::open(model) };
+    let symbols = Symbols::new(&mut graph, model).with_structure(&mut graph, model, &structure, 0);
+    let kept = Dependencies::of(outputs.iter().map(|output| &output.value)).kept(model);
+    let plain = Scene::new(model, Rc::new(symbols));
+    let scene =
+        Scene { structure: Rc::new(structure), way: Choices { writing, ..Choices::PLAIN }, kept: kept.into(), ..plain };
+    Equations::new(graph, scene)
+}
+
+impl Equations<'_> {
+    /// What a joint transmits, in world axes.
+    fn transmitted_in_world(&mut self, joint: JointId) -> [Scalar; 6] {
+        let Value::Pair(force, moment) = self.reaction(joint, &FixedFrame::GROUND) else { return [Scalar::ZERO; 6] };
+        let [force, moment] = [force, moment].map(|v| self.g.components(v));
+        [force[0], force[1], force[2], moment[0], moment[1], moment[2]]
+    }
+}
+
+/// Multipliers that take the free coordinates nowhere: `forces` has a row for each of these.
+fn stresses(forces: &[Vec<f64>], freedoms: usize, rows: usize) -> Vec<Vec<f64>> {
+    let column = |k: usize| forces.iter().map(|row| row[freedoms + k]).collect::<Vec<f64>>();
+    let columns: Vec<Vec<f64>> = (0..rows).map(column).collect();
+    let lengths: Vec<f64> = columns.iter().map(|column| dot(column, column).sqrt()).collect();
+    let combinations = rank::combinations(&unit(columns.into_iter()));
+    let in_units = |combination: Vec<f64>| -> Vec<f64> {
+        let longest = lengths.iter().fold(0.0_f64, |most, &x| most.max(x));
+        let of_row = |(x, &length): (f64, &f64)| if length > ROUNDING * longest { x / length } else { x };
+        combination.into_iter().zip(&lengths).map(of_row).collect()
+    };
+    combinations.into_iter().map(in_units).collect()
+}
+
+/// Rows of unit length, or of zeros where they are nothing beside others.
+fn unit(rows: impl Iterator<Item = Vec<f64>>) -> Vec<Vec<f64>> {
+    let mut rows: Vec<Vec<f64>> = rows.collect();
+    let lengths: Vec<f64> = rows.iter().map(|row| dot(row, row).sqrt()).collect();
+    let longest = lengths.iter().fold(0.0_f64, |most, &x| most.max(x));
+    for (row, &length) in rows.iter_mut().zip(&lengths) {
+        let factor = if length > ROUNDING * longest { 1.0 / length } else { 0.0 };
+        row.iter_mut().for_each(|x| *x *= factor);
+    }
+    rows
+}
+
+/// The least x that takes rows to a right side, as far as they agree.
+fn least(rows: &[Vec<f64>], right: &[f64]) -> Vec<f64> {
+    let mut x = vec![0.0; rows.first().map_or(0, Vec::len)];
+    let mut basis: Vec<Vec<f64>> = Vec::new();
+    for (row, &right) in rows.iter().zip(right) {
+        let mut rest = row.clone();
+        for unit in basis.iter().chain(&basis) {
+            let along = dot(unit, &rest);
+            add(&mut rest, -along, unit);
+        }
+        let square = dot(&rest, &rest);
+        if square <= ROUNDING * ROUNDING * dot(row, row) || square == 0.0 {
+            continue;
+        }
+        let missing = right - dot(row, &x);
+        add(&mut x, missing / square, &rest);
+        let length = square.sqrt();
+        rest.iter_mut().for_each(|x| *x /= length);
+        basis.push(rest);
+    }
+    x
+}
+
+/// A solution by complete pivoting, zero in what is left open.
+fn pivoted(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Vec<f64> {
+    let (count, width) = (a.len(), a.first().map_or(0, Vec::len));
+    for (row, right) in a.iter_mut().zip(&mut b) {
+        let most = row.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        let factor = if most > 0.0 { 1.0 / most } else { 0.0 };
+        row.iter_mut().for_each(|x| *x *= factor);
+        *right *= factor;
+    }
+    let mut columns: Vec<usize> = (0..width).collect();
+    let mut rank = 0;
+    while rank < count.min(width) {
+        let entries = (rank..count).flat_map(|i| (rank..width).map(move |j| (i, j)));
+        let size = |&(i, j): &(usize, usize)| a[i][j].abs();
+        let Some((i, j)) = entries.max_by(|x, y| size(x).total_cmp(&size(y))) else { break };
+        if a[i][j].abs() <= NO_PIVOT {
+            break;
+        }
+        a.swap(rank, i);
+        b.swap(rank, i);
+        a.iter_mut().for_each(|row| row.swap(rank, j));
+        columns.swap(rank, j);
+        let (pivot, right) = (a[rank].clone(), b[rank]);
+        for below in rank + 1..count {
+            let factor = a[below][rank] / pivot[rank];
+            if factor != 0.0 {
+                add(&mut a[below], -factor, &pivot);
+                b[below] -= factor * right;
+            }
+        }
+        rank += 1;
+    }
+    let mut x = vec![0.0; width];
+    for i in (0..rank).rev() {
+        let known: f64 = (i + 1..rank).map(|j| a[i][j] * x[columns[j]]).sum();
+        x[columns[i]] = (b[i] - known) / a[i][i];
+    }
+    x
+}
+
+pub(super) fn difference(a: &Wrenches, b: &Wrenches) -> Wrenches {
+    let minus =
+        |(a, b): (&[[f64; 3]; 2], &[[f64; 3]; 2])| [0, 1].map(|part| [0, 1, 2].map(|k| a[part][k] - b[part][k]));
+    a.iter().zip(b).map(minus).collect()
+}
+
+/// The greatest component of any.
+pub(super) fn greatest(wrenches: &Wrenches) -> f64 {
+    // A NaN is greater than all.
+    let greater = |most: f64, &x: &f64| if x.is_nan() || x.abs() > most { x.abs() } else { most };
+    wrenches.iter().flatten().flatten().fold(0.0, greater)
+}

@@ -1,0 +1,313 @@
+//! Loads that loops share in a way that rigid bodies don't determine: what depends on them is refused, and all else is the same in every
+//! formulation, whatever the axes.
+
+use multibody_engine::contracts::function::FunctionKind;
+use multibody_engine::contracts::symbol::Symbol;
+use multibody_engine::model::types::JointId;
+
+use super::support::*;
+
+/// Normal of a plane and two directions in it.
+type Plane = [[f64; 3]; 3];
+
+const ALONG_WORLD: Plane = [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+const ALONG_Y: Plane = [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]];
+const ABOUT_X: Plane = [[0.0, 0.6, 0.8], [1.0, 0.0, 0.0], [0.0, 0.8, -0.6]];
+const ASKEW: Plane = [[0.48, 0.6, 0.64], [0.8, 0.0, -0.6], [-0.36, 0.8, -0.48]];
+
+/// What 16 digits make of a turn about no axis in particular.
+fn typed() -> Plane {
+    transpose(&turn([0.3, -0.7, 0.5], 1.1))
+}
+
+const FORMULATIONS: [&str; 3] = [
+    "constraints: Reduced, independent: [crank]",
+    "constraints: Multipliers",
+    "coordinates: Absolute(Quaternion), constraints: Multipliers",
+];
+
+/// A four-bar in a plane, with loads that stand off it by `off`.
+fn bars(plane: &Plane, formulation: &str, off: f64, items: &str) -> String {
+    let v = |x: f64, y: f64, n: f64| -> [f64; 3] {
+        std::array::from_fn(|k| x * plane[1][k] + y * plane[2][k] + n * plane[0][k])
+    };
+    let normal = plane[0];
+    let cut = if formulation.contains("Absolute") { "" } else { "#[cut]" };
+    format!(
+        "world {{ gravity: {:?} }}
+        formulation {{ {formulation} }}
+        body arm {{ mass: 1.0, com: {:?}, inertia: diag(0.3, 0.3, 0.3) }}
+        body link {{ mass: 3.5, com: {:?}, inertia: diag(3.0, 3.0, 3.0) }}
+        body lever {{ mass: 3.0, com: {:?}, inertia: diag(3.0, 3.0, 3.0) }}
+        joint crank: Revolute {{ parent: ground, child: arm, axis: {normal:?} }}
+        joint coupler: Revolute {{ parent: arm.at({:?}), child: link, axis: {normal:?} }}
+        joint rocker: Revolute {{ parent: ground.at({:?}), child: lever, axis: {normal:?} }}
+        {cut}
+        joint pin: Revolute {{ parent: link.at({:?}), child: lever.at({:?}), axis: {normal:?} }}
+        {items}
+        output places = [arm.position, link.position, lever.position];
+        output arm_turn = arm.rotation; output link_turn = link.rotation; output lever_turn = lever.rotation;
+        output gap = link.at({:?}).position - lever.at({:?}).position;
+        output velocities = [arm.velocity, link.velocity, lever.velocity];
+        output spins = [arm.express(arm.angular_velocity), link.express(link.angular_velocity), lever.express(lever.angular_velocity)];
+        emit forward_dynamics;",
+        v(3.0, -9.0, 40.0 * off),
+        v(0.5, 0.1, off),
+        v(1.7, 0.2, -0.5 * off),
+        v(1.5, -0.1, 0.0),
+        v(1.0, 0.0, 0.0),
+        v(4.0, 0.0, 0.0),
+        v(3.5, 0.0, 0.0),
+        v(3.0, 0.0, 0.0),
+        v(3.5, 0.0, 0.0),
+        v(3.0, 0.0, 0.0),
+    )
+}
+
+const ALL: &str =
+    "output loads = [pin.reaction.force, coupler.reaction.force, crank.reaction.force, rocker.reaction.force];
+    output moments = [pin.reaction.moment, coupler.reaction.moment, crank.reaction.moment];";
+
+fn in_plane(plane: &Plane) -> String {
+    let [n, x, y] = plane;
+    let parts = |joint: &str| {
+        let [force, moment] = ["force", "moment"].map(|part| format!("{joint}.reaction.{part}"));
+        format!("dot({force}, {x:?}), dot({force}, {y:?}), dot({moment}, {n:?})")
+    };
+    format!("output parts = [{}];", ["pin", "coupler", "crank", "rocker"].map(parts).join(", "))
+}
+
+/// A closed pose of the reduced four-bar with a velocity.
+fn posed(case: &Case, crank: f64, rate: f64) -> Point {
+    let mut point = case.rest();
+    let joint = case.joint("crank");
+    point.set(Symbol::Position { joint, component: 0 }, crank);
+    point.set(Symbol::Velocity { joint, component: 0 }, rate);
+    let mut guess = vec![0.4, 1.9];
+    for _ in 0..40 {
+        for (index, &value) in guess.iter().enumerate() {
+            point.set(Symbol::Guess { index }, value);
+        }
+        guess = case.eval(FunctionKind::Guess, &point);
+        guess.pop();
+    }
+    close("closed", &case.output("gap", &point), &[0.0; 3], 1e-12);
+    point
+}
+
+/// The same pose in another formulation.
+fn taken(case: &Case, of: &Case, point: &Point) -> Point {
+    let mut other = case.rest();
+    let get = |name: &str| of.output(name, point);
+    let (places, velocities, spins) = (get("places"), get("velocities"), get("spins"));
+    let bodies = ["arm", "link", "lever"];
+    for (k, joint) in case.model.joints.iter().enumerate() {
+        let joint_id = JointId(k);
+        if case.model.cuts.contains(&joint_id) {
+            continue;
+        }
+        if joint.kind.freedoms() == 6 {
+            let body = bodies.iter().position(|name| joint.place.field.to_string().contains(name)).unwrap_or(k);
+            let turns = get(&format!("{}_turn", bodies[body]));
+            let r: Matrix = std::array::from_fn(|i| std::array::from_fn(|j| turns[3 * i + j]));
+            let q = quaternion(&r);
+            for c in 0..3 {
+                let at = |list: &[f64]| list[3 * body + c];
+                other.set(Symbol::Position { joint: joint_id, component: c }, at(&places));
+                other.set(Symbol::Velocity { joint: joint_id, component: c }, at(&velocities));
+                other.set(Symbol::Velocity { joint: joint_id, component: 3 + c }, at(&spins));
+            }
+            for (c, &x) in q.iter().enumerate() {
+                other.set(Symbol::Position { joint: joint_id, component: 3 + c }, x);
+            }
+        } else {
+            let name = joint.place.field.to_string();
+            let value = get(&format!("{name}_state"));
+            other.set(Symbol::Position { joint: joint_id, component: 0 }, value[0]);
+            other.set(Symbol::Velocity { joint: joint_id, component: 0 }, value[1]);
+        }
+    }
+    other
+}
+
+/// Of a rotation that is not near a half turn.
+fn quaternion(r: &Matrix) -> [f64; 4] {
+    let w = 0.5 * (1.0 + r[0][0] + r[1][1] + r[2][2]).sqrt();
+    [w, (r[2][1] - r[1][2]) / (4.0 * w), (r[0][2] - r[2][0]) / (4.0 * w), (r[1][0] - r[0][1]) / (4.0 * w)]
+}
+
+const STATES: &str =
+    "output crank_state = [crank.angle, crank.rate]; output coupler_state = [coupler.angle, coupler.rate];
+    output rocker_state = [rocker.angle, rocker.rate];";
+
+/// Vectors of world axes in those of the plane: along the normal last.
+fn seen(plane: &Plane, list: &[f64]) -> Vec<f64> {
+    let of = |v: &[f64]| [1, 2, 0].map(|axis| (0..3).map(|k| plane[axis][k] * v[k]).sum::<f64>());
+    list.chunks(3).flat_map(of).collect()
+}
+
+#[test]
+fn hinges_of_a_plane_in_any_axes() {
+    let poses = [(0.3, 0.7), (-1.1, 2.0), (0.9, -1.5)];
+    let mut want: Option<Vec<[Vec<f64>; 2]>> = None;
+    for plane in [ALONG_WORLD, ALONG_Y, ABOUT_X, ASKEW, typed()] {
+        let reduced = case(&bars(&plane, FORMULATIONS[0], 0.0, &format!("{ALL}{STATES}")));
+        let points: Vec<Point> = poses.iter().map(|&(angle, rate)| posed(&reduced, angle, rate)).collect();
+        for formulation in FORMULATIONS {
+            let other = case(&bars(&plane, formulation, 0.0, ALL));
+            let mut found = Vec::new();
+            for point in &points {
+                let at = taken(&other, &reduced, point);
+                let at = if formulation == FORMULATIONS[0] { point } else { &at };
+
+                found.push(["loads", "moments"].map(|name| seen(&plane, &other.output(name, at))));
+            }
+            let want = want.get_or_insert_with(|| found.clone());
+            for (found, want) in found.iter().zip(&*want) {
+                close(&format!("loads: {formulation}, {plane:?}"), &found[0], &want[0], 1e-9);
+                close(&format!("moments: {formulation}, {plane:?}"), &found[1], &want[1], 1e-9);
+                // Nothing leaves the plane.
+                let off = found[0].chunks(3).map(|v| v[2]).chain(found[1].chunks(3).flat_map(|v| [v[0], v[1]]));
+                assert!(off.into_iter().all(|x| x.abs() < 1e-9), "{found:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn loads_across_a_plane_leave_what_is_in_it() {
+    let mut want: Option<Vec<f64>> = None;
+    for plane in [ALONG_WORLD, ALONG_Y, ABOUT_X, ASKEW, typed()] {
+        let reduced = case(&bars(&plane, FORMULATIONS[0], 0.1, &format!("{}{STATES}", in_plane(&plane))));
+        let point = posed(&reduced, 0.3, 0.7);
+        for formulation in FORMULATIONS {
+            let other = case(&bars(&plane, formulation, 0.1, &in_plane(&plane)));
+            let at = taken(&other, &reduced, &point);
+            let at = if formulation == FORMULATIONS[0] { &point } else { &at };
+            let found = other.output("parts", at);
+            let want = want.get_or_insert_with(|| found.clone());
+            close(&format!("{formulation}, {plane:?}"), &found, want, 1e-9);
+        }
+    }
+}
+
+/// Whatever reads what nobody knows.
+#[test]
+fn what_is_not_determined_is_refused() {
+    let [n, ..] = ASKEW;
+    let across = format!("dot(coupler.reaction.force, {n:?})");
+    let reads = [
+        "pin.reaction".to_owned(),
+        "coupler.reaction.force".to_owned(),
+        "norm(crank.reaction.moment)".to_owned(),
+        across.clone(),
+        format!("max({across}, 0.0)"),
+        "rocker.reaction.express(arm).force".to_owned(),
+        "crank.reaction.force + rocker.reaction.moment".to_owned(),
+    ];
+    for plane in [ALONG_WORLD, ASKEW, typed()] {
+        for formulation in FORMULATIONS {
+            for read in &reads {
+                let text = bars(&plane, formulation, 0.1, &format!("output read = {read};"));
+                let refused = try_case(&text).err().unwrap_or_else(|| panic!("{formulation}: {read} in {plane:?}"));
+                assert!(refused.contains("how loops share their load"), "{refused}");
+            }
+        }
+    }
+}
+
+const BODIES: &str = "param off = 0.0; param gravity: Vec3 = [0.0, -9.81, 0.0]; input push: Vec3;
+    body a { mass: 1.0, com: 0.5 * X, inertia: rod(1.0, 1.0, X) }
+    body b { mass: 1.0, com: 0.5 * X, inertia: rod(1.0, 1.0, X) }
+    body c { mass: 1.0, com: [0.5, 0.1, OFF], inertia: rod(1.0, 1.0, X) }";
+
+/// Numbers that are zero by default are not zero for ever.
+#[test]
+fn loads_that_may_come() {
+    let text = |gravity: &str, off: &str, push: &str| {
+        format!(
+            "{} world {{ gravity: {gravity} }}
+            joint one: Revolute {{ parent: ground, child: a, axis: Z }}
+            joint two: Revolute {{ parent: a.at(X), child: b, axis: Z }}
+            joint three: Revolute {{ parent: ground.at(1.6 * X), child: c, axis: Z }}
+            #[cut] joint four: Revolute {{ parent: b.at(X), child: c.at(X), axis: Z }}
+            force pushed: Force {{ at: b, value: {push}, axes: ground }}
+            output load = two.reaction; emit forward_dynamics;",
+            BODIES.replace("OFF", off)
+        )
+    };
+    assert!(try_case(&text("-9.81 * Y", "0.0", "push.x * X")).is_ok());
+    for (gravity, off, push) in
+        [("gravity", "0.0", "push.x * X"), ("-9.81 * Y", "off", "push.x * X"), ("-9.81 * Y", "0.0", "push")]
+    {
+        let refused = try_case(&text(gravity, off, push)).err().expect("refused");
+        assert!(refused.contains("how loops share their load"), "{refused}");
+    }
+}
+
+/// A coupler on three parallel bars moves, and hangs on one more than it needs; its other branch has nothing redundant.
+#[test]
+fn a_bar_too_many() {
+    let text = |read: &str| {
+        format!(
+            "world {{ gravity: -9.81 * Y }}
+            body a {{ mass: 1.0, com: 0.5 * Y, inertia: rod(1.0, 1.0, Y) }}
+            body b {{ mass: 1.0, com: 0.5 * Y, inertia: rod(1.0, 1.0, Y) }}
+            body c {{ mass: 1.0, com: 0.5 * Y, inertia: rod(1.0, 1.0, Y) }}
+            body top {{ mass: 2.0, com: X, inertia: rod(2.0, 2.0, X) }}
+            joint ja: Revolute {{ parent: ground, child: a, axis: Z }}
+            joint jb: Revolute {{ parent: ground.at(X), child: b, axis: Z }}
+            joint jc: Revolute {{ parent: ground.at(2.0 * X), child: c, axis: Z }}
+            joint ta: Revolute {{ parent: a.at(Y), child: top, axis: Z }}
+            #[cut] joint tb: Revolute {{ parent: top.at(X), child: b.at(Y), axis: Z }}
+            #[cut] joint tc: Revolute {{ parent: top.at(2.0 * X), child: c.at(Y), axis: Z }}
+            output read = {read}; emit forward_dynamics;"
+        )
+    };
+    for read in ["tb.reaction.force", "ja.reaction.force", "jc.reaction.force.y"] {
+        let refused = try_case(&text(read)).err().unwrap_or_else(|| panic!("{read}"));
+        assert!(refused.contains("how loops share their load"), "{refused}");
+    }
+    for read in ["ja.reaction.force + jb.reaction.force + jc.reaction.force", "ja.accel"] {
+        assert!(try_case(&text(read)).is_ok(), "{read}");
+    }
+}
+
+/// A ball and a cylindrical joint among four hinges' places hold no more than they have to.
+#[test]
+fn a_loop_that_holds_no_more_than_it_has_to() {
+    let text = format!(
+        "{} world {{ gravity: gravity }}
+        joint one: Revolute {{ parent: ground, child: a, axis: Z }}
+        joint two: Ball {{ parent: a.at(X), child: b }}
+        joint three: Revolute {{ parent: ground.at(1.6 * X), child: c, axis: Z }}
+        #[cut] joint four: Cylindrical {{ parent: b.at(X), child: c.at(X), axis: Z }}
+        force pushed: Force {{ at: b, value: push, axes: ground }}
+        output loads = [one.reaction.force, two.reaction.force, three.reaction.moment, four.reaction.moment];
+        emit forward_dynamics;",
+        BODIES.replace("OFF", "off")
+    );
+    assert!(try_case(&text).is_ok());
+}
+
+/// Four hinges through one point, under gravity: forces that meet there move nothing.
+#[test]
+fn hinges_through_one_point() {
+    let text = |read: &str| {
+        format!(
+            "world {{ gravity: [1.0, 2.0, -9.0] }}
+            body a {{ mass: 1.0, com: [0.5, 0.1, 0.3], inertia: diag(0.2, 0.3, 0.4) }}
+            body b {{ mass: 1.0, com: [0.1, 0.4, 0.3], inertia: diag(0.2, 0.3, 0.4) }}
+            body c {{ mass: 1.0, com: [0.2, -0.3, 0.5], inertia: diag(0.2, 0.3, 0.4) }}
+            joint one: Revolute {{ parent: ground, child: a, axis: Z }}
+            joint two: Revolute {{ parent: a, child: b, axis: [0.0, 0.6, 0.8] }}
+            joint three: Revolute {{ parent: ground, child: c, axis: [0.6, 0.0, 0.8] }}
+            #[cut] joint four: Revolute {{ parent: b, child: c, axis: [0.48, 0.6, 0.64] }}
+            output read = {read}; emit forward_dynamics;"
+        )
+    };
+    let refused = try_case(&text("two.reaction.force")).err().expect("refused");
+    assert!(refused.contains("how loops share their load"), "{refused}");
+    assert!(try_case(&text("one.reaction.force + three.reaction.force")).is_ok());
+    assert!(try_case(&text("one.accel")).is_ok());
+}
