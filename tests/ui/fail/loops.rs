@@ -41,6 +41,19 @@ multibody! {
         joint closing: PinSlot { parent: ground.at(X), child: rocker.at(X), axis: Z, slide: X }
         solve (b) from (closing, closing, a) { b > 0.0 }
     }
+    mod shared {
+        world { gravity: [1.0, -9.0, 3.0] }
+        body crank { mass: 1.0, inertia: rod(1.0, 1.0, X) }
+        body coupler { mass: 1.0, com: 0.5 * X, inertia: rod(1.0, 1.0, X) }
+        body rocker { mass: 1.0, inertia: rod(1.0, 1.0, X) }
+        joint a: Revolute { parent: ground, child: crank, axis: Z }
+        joint b: Revolute { parent: crank.at(X), child: coupler, axis: Z }
+        joint c: Revolute { parent: ground.at(1.5 * X), child: rocker, axis: Z }
+        #[cut]
+        joint d: Revolute { parent: coupler.at(X), child: rocker.at(X), axis: Z }
+        output in_plane = a.reaction.force.x;
+        output whole = norm(b.reaction.force);
+    }
 }
 
 fn main() {

@@ -12,6 +12,7 @@ mod closable;
 mod closed;
 mod closures;
 mod configurations;
+mod dense;
 mod divisors;
 mod integrability;
 mod leaving;

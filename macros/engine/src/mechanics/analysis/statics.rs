@@ -26,15 +26,11 @@ use crate::model::types::{JointId, Model, Output};
 use crate::symbolic::graph::{Graph, Scalar};
 use crate::symbolic::lower::Lowering;
 
+use super::dense::{ROUNDING, least, pivoted, unit};
 use super::problem::{Problem, Random};
 use super::rank;
-use super::singular::{add, dot};
+use super::singular::dot;
 use super::tape::{Tape, Values};
-
-/// A pivot that is this much of the greatest entry before elimination is none.
-const NO_PIVOT: f64 = 1e-11;
-/// Of a row with entries about one; less is rounding.
-const ROUNDING: f64 = 1e-9;
 
 /// What is looked at, as programs for numbers.
 pub(super) struct Statics {
@@ -331,81 +327,6 @@ fn stresses(forces: &[Vec<f64>], freedoms: usize, rows: usize) -> Vec<Vec<f64>> 
         combination.into_iter().zip(&lengths).map(of_row).collect()
     };
     combinations.into_iter().map(in_units).collect()
-}
-
-/// Rows of unit length, or of zeros where they are nothing beside others.
-fn unit(rows: impl Iterator<Item = Vec<f64>>) -> Vec<Vec<f64>> {
-    let mut rows: Vec<Vec<f64>> = rows.collect();
-    let lengths: Vec<f64> = rows.iter().map(|row| dot(row, row).sqrt()).collect();
-    let longest = lengths.iter().fold(0.0_f64, |most, &x| most.max(x));
-    for (row, &length) in rows.iter_mut().zip(&lengths) {
-        let factor = if length > ROUNDING * longest { 1.0 / length } else { 0.0 };
-        row.iter_mut().for_each(|x| *x *= factor);
-    }
-    rows
-}
-
-/// The least x that takes rows to a right side, as far as they agree.
-fn least(rows: &[Vec<f64>], right: &[f64]) -> Vec<f64> {
-    let mut x = vec![0.0; rows.first().map_or(0, Vec::len)];
-    let mut basis: Vec<Vec<f64>> = Vec::new();
-    for (row, &right) in rows.iter().zip(right) {
-        let mut rest = row.clone();
-        for unit in basis.iter().chain(&basis) {
-            let along = dot(unit, &rest);
-            add(&mut rest, -along, unit);
-        }
-        let square = dot(&rest, &rest);
-        if square <= ROUNDING * ROUNDING * dot(row, row) || square == 0.0 {
-            continue;
-        }
-        let missing = right - dot(row, &x);
-        add(&mut x, missing / square, &rest);
-        let length = square.sqrt();
-        rest.iter_mut().for_each(|x| *x /= length);
-        basis.push(rest);
-    }
-    x
-}
-
-/// A solution by complete pivoting, zero in what is left open.
-fn pivoted(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Vec<f64> {
-    let (count, width) = (a.len(), a.first().map_or(0, Vec::len));
-    for (row, right) in a.iter_mut().zip(&mut b) {
-        let most = row.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-        let factor = if most > 0.0 { 1.0 / most } else { 0.0 };
-        row.iter_mut().for_each(|x| *x *= factor);
-        *right *= factor;
-    }
-    let mut columns: Vec<usize> = (0..width).collect();
-    let mut rank = 0;
-    while rank < count.min(width) {
-        let entries = (rank..count).flat_map(|i| (rank..width).map(move |j| (i, j)));
-        let size = |&(i, j): &(usize, usize)| a[i][j].abs();
-        let Some((i, j)) = entries.max_by(|x, y| size(x).total_cmp(&size(y))) else { break };
-        if a[i][j].abs() <= NO_PIVOT {
-            break;
-        }
-        a.swap(rank, i);
-        b.swap(rank, i);
-        a.iter_mut().for_each(|row| row.swap(rank, j));
-        columns.swap(rank, j);
-        let (pivot, right) = (a[rank].clone(), b[rank]);
-        for below in rank + 1..count {
-            let factor = a[below][rank] / pivot[rank];
-            if factor != 0.0 {
-                add(&mut a[below], -factor, &pivot);
-                b[below] -= factor * right;
-            }
-        }
-        rank += 1;
-    }
-    let mut x = vec![0.0; width];
-    for i in (0..rank).rev() {
-        let known: f64 = (i + 1..rank).map(|j| a[i][j] * x[columns[j]]).sum();
-        x[columns[i]] = (b[i] - known) / a[i][i];
-    }
-    x
 }
 
 pub(super) fn difference(a: &Wrenches, b: &Wrenches) -> Wrenches {

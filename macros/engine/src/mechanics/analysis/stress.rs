@@ -24,8 +24,10 @@ use super::singular::{add, dot};
 use super::statics::{Sample, Statics, Wrenches, difference, greatest};
 use super::tape::Values;
 
-/// As many closed poses are looked at.
+/// As many closed poses are looked at, and as many of mechanisms with more freedoms and equations than `LARGE`.
 const POSES: usize = 4;
+const FEW: usize = 2;
+const LARGE: usize = 100;
 /// How far further ones are looked for from where coordinates stand by default.
 const AMPLITUDES: [f64; 8] = [0.1, 0.1, 0.2, 0.2, 0.4, 0.4, 0.8, 0.8];
 /// Beside all terms that a change is made of, and beside the greatest load.
@@ -76,7 +78,9 @@ pub(in super::super) fn are_determined(model: &Model, structure: &Structure, wri
 /// Closed poses. Those that the structure knows have the greatest rank; where some branch of what is kept has less, as that on which a coupler moves on
 /// three parallel bars, others are looked for.
 fn poses(problem: &Problem, structure: &Structure) -> Vec<Vec<Vec<f64>>> {
-    let known = structure.closed.iter().take(POSES).map(|closed| closed.positions.clone());
+    let size = problem.columns.len() + problem.equations.len();
+    let count = if size > LARGE { FEW } else { POSES };
+    let known = structure.closed.iter().take(count).map(|closed| closed.positions.clone());
     let mut poses: Vec<Vec<Vec<f64>>> = known.collect();
     if structure.redundant {
         let (equations, columns): (Vec<usize>, Vec<usize>) =

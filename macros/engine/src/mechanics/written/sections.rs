@@ -163,9 +163,10 @@ impl Sections {
             // What has a line has a name.
             let apart =
                 lines.iter().find(|line| line.subject == Subject::Definition && line.equation.right == radicand);
+            let written_out = radicand.clone();
             radicand = apart.map_or(radicand, |line| line.equation.left.clone());
             for line in lines.iter_mut().filter(|line| line.subject == subject) {
-                let real = domains::real(&radicand, &line.equation.right, &hidden);
+                let real = domains::real(&radicand, &written_out, &line.equation.right, &hidden);
                 line.says = domains::joined(line.says.take(), Some(real));
             }
         }
