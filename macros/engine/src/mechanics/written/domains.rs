@@ -55,9 +55,9 @@ pub(super) fn is_chosen(g: &Graph, value: Scalar) -> bool {
     scalars.into_iter().any(|s| matches!(g.node(s), ScalarNode::Call(Call::Select, _)))
 }
 
-/// Where a root is real. `hidden` are names that stand nowhere else; `written_out` is the radicand where it has a name.
-/// `line` is the formula that takes it.
-pub(super) fn real(radicand: &Formula, written_out: &Formula, line: &Formula, hidden: &[Identifier]) -> String {
+/// Where a root is real. `hidden` are names that stand nowhere else; `is_square` says that the radicand is one, or a sum of them, however it is
+/// written. `line` is the formula that takes it.
+pub(super) fn real(radicand: &Formula, is_square: bool, line: &Formula, hidden: &[Identifier]) -> String {
     if radicand.length() > MOST_SYMBOLS || reads_any(radicand, hidden) {
         return BETWEEN.to_owned();
     }
@@ -68,7 +68,7 @@ pub(super) fn real(radicand: &Formula, written_out: &Formula, line: &Formula, hi
         true => ["the radicand is zero".to_owned(), "the radicand is not negative".to_owned()],
         false => [format!("`{written} = 0`"), format!("`{written} >= 0`")],
     };
-    match at_least_zero(written_out) {
+    match at_least_zero(radicand).or(is_square.then_some(false)) {
         Some(true) => "real everywhere".to_owned(),
         Some(false) => format!("real everywhere, its only dead centres where {zero}"),
         None => format!("real where {positive}, with dead centres where it is zero"),

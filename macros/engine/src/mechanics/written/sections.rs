@@ -17,6 +17,7 @@ use crate::mechanics::results::parts::Parts;
 use crate::mechanics::translate::forces::LoadCase;
 use crate::model::types::{Coordinate, JointId, Type};
 use crate::symbolic::graph::{Graph, Scalar, ScalarNode, SymbolId};
+use crate::symbolic::signs::is_positive;
 use crate::symbolic::write::formula::{Class, Equation, Formula, Function, Identifier};
 use crate::symbolic::write::{self, Names, Wanted, Writing};
 
@@ -135,7 +136,7 @@ impl Sections {
             .map(|apart| apart.name.clone())
             .collect();
         let mut lines: Vec<Line> = Vec::new();
-        let mut under_roots: Vec<(Subject, Formula)> = Vec::new();
+        let mut under_roots: Vec<(Subject, Formula, bool)> = Vec::new();
         let mut waiting = writing.definitions;
         for (k, (draft, right)) in drafts.into_iter().zip(writing.formulas).enumerate() {
             let (now, later) = waiting.into_iter().partition(|apart| apart.reader == k);
@@ -148,8 +149,8 @@ impl Sections {
                 let equation = Equation { left: Formula::Name(apart.name), right };
                 lines.push(Line { subject: Subject::Definition, equation, says });
             }
-            let radicand = draft.radicand.and_then(|_| radicands.next());
-            under_roots.extend(radicand.map(|radicand| (draft.subject, radicand)));
+            let radicand = draft.radicand.and_then(|root| Some((root, radicands.next()?)));
+            under_roots.extend(radicand.map(|(root, radicand)| (draft.subject, radicand, is_positive(&e.g, root))));
             let equation = Equation { left: draft.left, right };
             lines.push(Line { subject: draft.subject, equation, says: draft.says });
         }
@@ -158,15 +159,14 @@ impl Sections {
         }
         let part = |subject| apart::part_of(e.scene.model, &e.scene.structure, subject);
         let renamed = apart::by_element(&mut lines, &part, &mut self.taken);
-        for (subject, mut radicand) in under_roots {
+        for (subject, mut radicand, is_square) in under_roots {
             apart::rename(&mut radicand, &renamed);
             // What has a line has a name.
             let apart =
                 lines.iter().find(|line| line.subject == Subject::Definition && line.equation.right == radicand);
-            let written_out = radicand.clone();
             radicand = apart.map_or(radicand, |line| line.equation.left.clone());
             for line in lines.iter_mut().filter(|line| line.subject == subject) {
-                let real = domains::real(&radicand, &written_out, &line.equation.right, &hidden);
+                let real = domains::real(&radicand, is_square, &line.equation.right, &hidden);
                 line.says = domains::joined(line.says.take(), Some(real));
             }
         }
