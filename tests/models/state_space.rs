@@ -75,7 +75,7 @@ macro_rules! bars {
     ($name:ident { $($more:tt)* }) => {
         multibody! {
             pub mod $name {
-                world { gravity: [1.0, -9.0, 2.0] }
+                world { gravity: [1.0, -9.0, 0.0] }
                 input torque;
                 body arm { mass: 1.0, com: 0.5 * X, inertia: rod(1.0, 1.0, X) }
                 body link { mass: 3.5, com: [1.7, 0.2, 0.0], inertia: diag(0.1, 3.0, 3.1) }

@@ -8,7 +8,6 @@ use crate::invariant::injection::{Break, broken};
 use crate::symbolic::graph::{Graph, Scalar, Vector};
 
 use super::inertia::Inertia;
-use super::kept_masses::moves;
 use super::newton_euler::{Wrench, to_parent};
 use super::tree::{Motion, Tree};
 
@@ -17,7 +16,7 @@ pub fn mass_matrix(g: &mut Graph, tree: &Tree) -> Vec<Vec<Scalar>> {
     let composites = composites(g, tree);
     let n = tree.freedoms();
     let mut matrix = vec![vec![Scalar::ZERO; n]; n];
-    let still: Vec<bool> = (0..tree.links.len()).map(|index| tree.turns_columns && !moves(g, tree, index)).collect();
+    let still: Vec<bool> = (0..tree.links.len()).map(|index| tree.turns_columns && !tree.moves(g, index)).collect();
     for (index, link) in tree.links.iter().enumerate() {
         for (column, twist) in tree.twists(link) {
             let mut wrench = unit_wrench(g, &composites[index], &twist);

@@ -20,7 +20,7 @@ const MOST: f64 = 2.0;
 /// Moves mass of a link, whose first moment and mass are those of all that it carries, to one of the links that it carries.
 pub(super) fn keep_mass(g: &mut Graph, tree: &mut Tree, index: usize) {
     let Motion::Revolute(hinge) = tree.links[index].motion else { return };
-    if !moves(g, tree, index) {
+    if !tree.moves(g, index) {
         return;
     }
     let total = tree.links[index].inertia.mass;
@@ -48,20 +48,6 @@ pub(super) fn keep_mass(g: &mut Graph, tree: &mut Tree, index: usize) {
             return;
         }
     }
-}
-
-/// Whether the origin of a link moves: a force on one that doesn't takes no effort.
-pub(super) fn moves(g: &mut Graph, tree: &Tree, index: usize) -> bool {
-    let support: Vec<usize> = tree.support(Some(index)).collect();
-    let on_hinges = support.iter().all(|&at| matches!(tree.links[at].motion, Motion::Revolute(_)));
-    let still = support.iter().all(|&at| {
-        let Some(parent) = tree.links[at].parent else { return true };
-        let offset = g.components(tree.links[at].offset);
-        // What stands on the axis of the first hinge stands still as well.
-        let axis = tree.links[parent].motion.axis().filter(|_| tree.links[parent].parent.is_none());
-        (0..3).all(|k| offset[k] == Scalar::ZERO || Some(k) == axis)
-    });
-    !(on_hinges && still)
 }
 
 /// Whether the acceleration of a link's origin counts for what it carries.

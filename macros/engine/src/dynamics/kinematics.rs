@@ -24,8 +24,16 @@ pub struct LinkMotion {
     pub angular_rate: Vector,
     /// m/s^2; carries minus gravity if the base was given it.
     pub linear_rate: Vector,
-    /// The axis of its hinge, if the column of U along it is the carrier's, and the axis along which the next hinge lies.
-    pub kept: Option<(usize, usize)>,
+    pub kept: Option<KeptColumn>,
+}
+
+/// Which column of U a link has in common with its carrier, by axes of the link.
+#[derive(Clone, Copy, Debug)]
+pub struct KeptColumn {
+    /// That of its hinge.
+    hinge: usize,
+    /// The one along which the next hinge lies: its column is made of the others.
+    next: usize,
 }
 
 impl LinkMotion {
@@ -39,8 +47,7 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 pub struct Field {
     w: [Scalar; 3],
     dw: [Scalar; 3],
-    /// As in [`LinkMotion`].
-    kept: Option<(usize, usize)>,
+    kept: Option<KeptColumn>,
     /// The link's, for names such as `u_elbow_xy`.
     name: String,
 }
@@ -65,7 +72,7 @@ impl Field {
     pub fn entry(&self, g: &mut Graph, i: usize, j: usize) -> Scalar {
         let entry = if i == j {
             match self.kept {
-                Some((hinge, next)) if i != hinge && i != next => {
+                Some(KeptColumn { hinge, next }) if i != hinge && i != next => {
                     let along = self.entry(g, hinge, hinge);
                     let step = self.difference(g, i, hinge);
                     g.add(along, step)
@@ -92,7 +99,7 @@ impl Field {
     /// U_ii - U_jj = w_i^2 - w_j^2. Where one entry of the diagonal is known two squares serve all: that along the next hinge is
     /// made of them, for the link beyond to know.
     pub fn difference(&self, g: &mut Graph, i: usize, j: usize) -> Scalar {
-        if let Some((hinge, next)) = self.kept
+        if let Some(KeptColumn { hinge, next }) = self.kept
             && (i == next || j == next)
         {
             let other = 3 - hinge - next;
@@ -181,7 +188,7 @@ pub fn motions(
         let name = &link.name;
         let kept = along.map(|(hinge, _)| {
             let next = next_hinge(g, tree, index).filter(|&next| next != hinge);
-            (hinge, next.unwrap_or((hinge + 2) % 3))
+            KeptColumn { hinge, next: next.unwrap_or((hinge + 2) % 3) }
         });
         motions.push(LinkMotion {
             angular: g.name_vector(angular, || format!("w_{name}")),

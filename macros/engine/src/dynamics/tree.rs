@@ -215,4 +215,18 @@ impl Tree {
             Motion::Ball(_) => (0..3).map(|k| (link.freedom + k, g.component(moment, k))).collect(),
         }
     }
+
+    /// Whether the origin of a link moves: a force on one that doesn't takes no effort.
+    pub(super) fn moves(&self, g: &mut Graph, index: usize) -> bool {
+        let support: Vec<usize> = self.support(Some(index)).collect();
+        let on_hinges = support.iter().all(|&at| matches!(self.links[at].motion, Motion::Revolute(_)));
+        let still = support.iter().all(|&at| {
+            let Some(parent) = self.links[at].parent else { return true };
+            let offset = g.components(self.links[at].offset);
+            // What stands on the axis of the first hinge stands still as well.
+            let axis = self.links[parent].motion.axis().filter(|_| self.links[parent].parent.is_none());
+            (0..3).all(|k| offset[k] == Scalar::ZERO || Some(k) == axis)
+        });
+        !(on_hinges && still)
+    }
 }
