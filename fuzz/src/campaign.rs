@@ -136,6 +136,7 @@ impl Family for Loops {
             || all("how many of its equations count is not known") && loops::loses_rank_where_closed(mechanism)
             || all("tells the screw's angle up to whole turns only") && loops::turns_beside_a_screw(mechanism)
             || all("leaves no freedom") && loops::is_locked(mechanism)
+            || all("depends on how loops share their load") && excuses::is_redundant(mechanism)
     }
 }
 

@@ -12,10 +12,11 @@ use crate::random::Random;
 /// Words of a message, and what must be true of a mechanism about which a message has them.
 type Excuse = (&'static str, fn(&Mechanism, &str) -> bool);
 
-const EXCUSES: [Excuse; 15] = [
+const EXCUSES: [Excuse; 16] = [
     ("and its orientation is a quaternion", has_quaternions),
     ("and it is a quaternion", has_quaternions),
     ("how they share the load is not determined by rigid bodies", reads_shared_loads),
+    ("depends on how loops share their load", |m, _| is_redundant(m)),
     ("is a coupling of coordinates that is put in where they are", |m, _| reads(m, |l| matches!(l, Load::Coupling(_)))),
     (", or contradicts that, wherever it was looked at", |m, _| is_redundant(m) || never_moves(m)),
     (": their velocities leave none for it", |m, _| never_moves(m)),
@@ -74,7 +75,7 @@ fn reads_shared_loads(m: &Mechanism, _: &str) -> bool {
 }
 
 /// At no pose are all equations independent.
-fn is_redundant(m: &Mechanism) -> bool {
+pub fn is_redundant(m: &Mechanism) -> bool {
     several(m).iter().all(|equations| equations.rank() < equations.slope.nrows())
 }
 
