@@ -245,6 +245,127 @@ fn loads_that_may_come() {
     }
 }
 
+/// Four bars in a plane with what acts on them, `b` with a product of inertia `xz`, and what is read.
+fn pushed(gravity: &str, xz: &str, items: &str) -> String {
+    format!(
+        "world {{ gravity: {gravity} }}
+        body a {{ mass: 1.0, com: 0.5 * X, inertia: rod(1.0, 1.0, X) }}
+        body b {{ mass: 1.0, com: [0.5, 0.1, 0.0], inertia: inertia(0.2, 0.3, 0.4, 0.0, {xz}, 0.0) }}
+        body c {{ mass: 1.0, com: 0.5 * X, inertia: rod(1.0, 1.0, X) }}
+        joint one: Revolute {{ parent: ground, child: a, axis: Z }}
+        joint two: Revolute {{ parent: a.at(X), child: b, axis: Z }}
+        joint three: Revolute {{ parent: ground.at(1.6 * X), child: c, axis: Z }}
+        #[cut] joint four: Revolute {{ parent: b.at(X), child: c.at(X), axis: Z }}
+        {items} emit forward_dynamics;"
+    )
+}
+
+/// Loads that begin at a time, beyond a stop or by a drive count too, wherever the mechanism stands when it is looked at.
+#[test]
+fn loads_that_begin() {
+    let push = |amount: &str| format!("force push: Force {{ at: b, value: {amount}, axes: ground }}");
+    let read = "output load = two.reaction;";
+    for (declared, amount) in [
+        ("", "sin(t) * Z"),
+        ("", "max(t - 20.0, 0.0) * Z"),
+        ("", "select(t > 20.0, 1.0, 0.0) * Z"),
+        ("input u;", "max(u - 5.0, 0.0) * Z"),
+        ("param u = 0.0;", "max(u - 5.0, 0.0) * Z"),
+        ("state s: rate = 1.0 - s, start: 0.0;", "max(s - 10.0, 0.0) * Z"),
+        ("", "max(one.angle - 30.0, 0.0) * Z"),
+        ("", "min(30.0 - one.rate, 0.0) * Z"),
+    ] {
+        let text = pushed("-9.81 * Y", "0.0", &format!("{declared} {} {read}", push(amount)));
+        let refused = try_case(&text).err().unwrap_or_else(|| panic!("{amount}"));
+        assert!(refused.contains("how loops share their load"), "{refused}");
+        let text = pushed("-9.81 * Y", "0.0", &format!("{declared} {} {read}", push(&amount.replace('Z', "Y"))));
+        assert!(try_case(&text).is_ok(), "{amount}");
+    }
+    for course in ["0.3 + t", "0.3 + t * t * t"] {
+        let items = format!("drive one.angle = {course}; {read}");
+        assert!(try_case(&pushed("-9.81 * Y", "0.05", &items)).is_err(), "{course}");
+        assert!(try_case(&pushed("-9.81 * Y", "0.0", &items)).is_ok(), "{course}");
+    }
+}
+
+/// What an output makes of loads hides none, and nor does what is heavy beside the loop.
+#[test]
+fn whatever_is_made_of_loads() {
+    let across = "[0.0, -9.0, 1.0]";
+    for read in [
+        "four.reaction.force.z * four.reaction.moment.x",
+        "max(norm(two.reaction.force) - 1e5, 0.0)",
+        "two.reaction.force.z / 1e13",
+        "select(two.reaction.force.z > 1e6, 1.0, 0.0)",
+    ] {
+        let text = pushed(across, "0.0", &format!("output read = {read};"));
+        assert!(try_case(&text).err().is_some_and(|said| said.contains("share their load")), "{read}");
+    }
+    let big = "body big { mass: 1.0e9, com: X, inertia: rod(1.0e9, 2.0, X) }
+        joint p: Revolute { parent: ground, child: big, axis: Z } output read = two.reaction;";
+    assert!(try_case(&pushed(across, "0.0", big)).is_err());
+    assert!(try_case(&pushed("-9.0 * Y", "0.0", big)).is_ok());
+}
+
+/// A parameter that has a say in the loop as well as in a load.
+#[test]
+fn parameters_of_loops_that_load_them() {
+    let text = pushed("-9.81 * Y", "0.0", "param reach = 1.6; output load = two.reaction;")
+        .replace("ground.at(1.6 * X)", "ground.at(reach * X)");
+    assert!(try_case(&text).is_ok());
+    let loaded = text.replace("com: [0.5, 0.1, 0.0]", "com: 0.5 * X + (reach - 1.6) * Z");
+    assert!(try_case(&loaded).is_err());
+}
+
+/// Two wheels on an axle share what is aside of them, whichever way they head: along a world axis at the start.
+#[test]
+fn wheels_on_an_axle() {
+    let text = |read: &str| {
+        let wheel = |k: usize, y: &str| {
+            format!(
+                "body w{k} {{ mass: 0.5, inertia: diag(0.01, 0.02, 0.01) }}
+                joint j{k}: Revolute {{ parent: base.at([0.5, {y}, 0.0]), child: w{k}, axis: Y }}
+                constraint r{k}: Rolling {{ wheel: w{k}, axis: Y, radius: 0.3 }}"
+            )
+        };
+        format!(
+            "world {{ gravity: -9.81 * Z }}
+            body base {{ mass: 5.0, inertia: diag(1.0, 1.0, 1.0) }}
+            joint float: Planar {{ parent: ground.at(0.3 * Z), child: base, axes: [X, Y] }}
+            {} {} output read = {read}; emit forward_dynamics;",
+            wheel(0, "0.4"),
+            wheel(1, "-0.4")
+        )
+    };
+    for read in ["j0.reaction.force.x", "j0.reaction.express(base).force.y"] {
+        assert!(try_case(&text(read)).is_err(), "{read}");
+    }
+    assert!(try_case(&text("j0.reaction.express(base).force.x")).is_ok());
+}
+
+/// Of a bar too many that is a rod, the multiplier.
+#[test]
+fn a_rod_too_many() {
+    let text = |read: &str| {
+        format!(
+            "world {{ gravity: -9.81 * Y }}
+            body a {{ mass: 1.0, com: 0.5 * Y, inertia: rod(1.0, 1.0, Y) }}
+            body b {{ mass: 1.0, com: 0.5 * Y, inertia: rod(1.0, 1.0, Y) }}
+            body top {{ mass: 2.0, com: 0.7 * X, inertia: diag(0.1, 0.2, 0.2) }}
+            joint ja: Revolute {{ parent: ground, child: a, axis: Z }}
+            joint jb: Revolute {{ parent: ground.at(X), child: b, axis: Z }}
+            joint ta: Revolute {{ parent: a.at(Y), child: top, axis: Z }}
+            #[cut] joint tb: Revolute {{ parent: top.at(X), child: b.at(Y), axis: Z }}
+            constraint rod: Rod {{ between: [ground.at(2.0 * X), top.at(2.0 * X)], length: 1.0 }}
+            output read = {read}; emit forward_dynamics;"
+        )
+    };
+    for read in ["rod.multiplier", "ja.reaction.force"] {
+        assert!(try_case(&text(read)).is_err(), "{read}");
+    }
+    assert!(try_case(&text("ja.rate")).is_ok());
+}
+
 /// A coupler on three parallel bars moves, and hangs on one more than it needs; its other branch has nothing redundant.
 #[test]
 fn a_bar_too_many() {

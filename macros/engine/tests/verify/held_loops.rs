@@ -29,7 +29,7 @@ fn four_bar(foot: &str, turn: &str, [first, second, third]: [&str; 3], end: &str
             #[cut]
             joint j3: Revolute {{ parent: b2{third}, child: ground{end}, axis: Z }}
             output place = b1.position;
-            output reaction = j3.reaction;
+            output reaction = j3.reaction.express(b2).force.x;
             solve (j1.angle, j2.angle) from j3 {{ sin(j2.angle) > 0 }}
             formulation {{ constraints: Reduced }}
             emit {emit};

@@ -27,10 +27,13 @@ use crate::symbolic::graph::{Graph, Scalar};
 use crate::symbolic::lower::Lowering;
 
 use super::dense::{ROUNDING, least, pivoted, unit};
-use super::problem::{Problem, Random};
+use super::problem::{Point, Problem, Random};
 use super::rank;
 use super::singular::dot;
 use super::tape::{Tape, Values};
+
+/// The latest time that is looked at. [s]
+const LATE: f64 = 7.0;
 
 /// What is looked at, as programs for numbers.
 pub(super) struct Statics {
@@ -42,8 +45,11 @@ pub(super) struct Statics {
     /// Symbols of accelerations that no drive gives.
     accelerations: Vec<usize>,
     multipliers: Vec<usize>,
+    positions: Vec<usize>,
     /// Symbols that don't stand at their defaults.
     moved: Vec<usize>,
+    /// Time, where loops and drives don't know of it.
+    free_time: Option<usize>,
     /// (symbol, root), of positions, velocities and accelerations.
     driven: Vec<(usize, usize)>,
     /// Roots: efforts where no drive holds, rates of rows and second derivatives.
@@ -60,6 +66,8 @@ pub(super) struct Statics {
 pub(super) struct Sample {
     /// Values of all symbols.
     at: Vec<f64>,
+    /// The same where nothing is closed, and nothing in line.
+    anywhere: Vec<f64>,
     /// Of the equations that were kept; more than one solution where they depend on each other here.
     pub multipliers: Vec<Vec<f64>>,
     /// Self-stress by row, each with wrenches about as great as those of the loads.
@@ -82,7 +90,14 @@ impl Roots {
 }
 
 impl Statics {
-    pub(super) fn new(model: &Model, structure: &Structure, writing: Writing, outputs: &[&Output]) -> Statics {
+    /// Where it `blends`, loads and outputs that are made of pieces are some of each piece.
+    pub(super) fn new(
+        model: &Model,
+        structure: &Structure,
+        writing: Writing,
+        outputs: &[&Output],
+        blends: bool,
+    ) -> Statics {
         let mut rows: Vec<Row> = closings(model)
             .into_iter()
             .flat_map(|closing| (0..row_count(model, closing)).map(move |index| Row { closing, index }))
@@ -124,7 +139,9 @@ impl Statics {
             .collect();
         let mut lowering = Lowering::new(&e.g);
         let lowered = lowering.run(&roots.0);
-        let tape = Tape::new(&lowering.to, &lowered);
+        let exact = rates.clone().chain(second.clone()).chain(courses_of(&driven)).collect::<Vec<usize>>();
+        let whole = Tape::new(&lowering.to, &lowered);
+        let tape = if blends { whole.blended(exact.into_iter()) } else { whole };
         let closing: HashSet<usize> = rates.clone().chain(second.clone()).flat_map(|root| tape.symbols(root)).collect();
         let of_drives: HashSet<usize> = courses_of(&driven).flat_map(|root| tape.symbols(root)).collect();
         let is_moved = |&k: &usize| match symbols.table[k] {
@@ -132,6 +149,8 @@ impl Statics {
             Symbol::Param { .. } => !closing.contains(&k) && !of_drives.contains(&k),
             _ => false,
         };
+        let is_position = |&k: &usize| matches!(symbols.table[k], Symbol::Position { .. });
+        let free_time = number(&e, symbols.time).filter(|time| !closing.contains(time) && !of_drives.contains(time));
         let kept = (0..rows.len()).filter(|&k| !structure.dropped.contains(&rows[k])).collect();
         Statics {
             kept,
@@ -139,6 +158,8 @@ impl Statics {
             accelerations: in_places(&e, &symbols.accelerations),
             multipliers: symbols.multipliers.iter().filter_map(|&s| number(&e, s)).collect(),
             moved: (0..symbols.table.len()).filter(is_moved).collect(),
+            positions: (0..symbols.table.len()).filter(is_position).collect(),
+            free_time,
             tape,
             rows,
             driven,
@@ -156,12 +177,15 @@ impl Statics {
     }
 
     /// At a closed pose; nothing where the mechanism allows no velocities there, or something has no number.
-    pub(super) fn sample(&mut self, problem: &Problem, positions: &[Vec<f64>], random: &mut Random) -> Option<Sample> {
-        let mut at = problem.at(positions).0;
+    pub(super) fn sample(&mut self, problem: &Problem, point: &Point, random: &mut Random) -> Option<Sample> {
+        let mut at = point.0.clone();
         let count = self.multipliers.iter().max().map_or(0, |most| most + 1).max(at.len());
         at.resize(count, 0.0);
         for &symbol in &self.moved {
             at[symbol] = at[symbol] * (1.0 + 0.3 * random.next()) + 0.3 * random.next();
+        }
+        if let Some(time) = self.free_time {
+            at[time] = LATE * random.next().abs();
         }
         self.tape.run_for(&mut self.values, &at, self.driven.iter().map(|one| one.1));
         for &(symbol, root) in &self.driven {
@@ -206,13 +230,17 @@ impl Statics {
             }
             multipliers.push(all);
         }
-        let mut sample = Sample { at, multipliers, stress: Vec::new() };
+        let mut anywhere = at.clone();
+        let loose = problem.start(random, 1.0).0;
+        self.positions.iter().for_each(|&symbol| anywhere[symbol] = loose[symbol]);
+        let mut sample = Sample { at, anywhere, multipliers, stress: Vec::new() };
         let zero = vec![0.0; self.rows.len()];
         let still = self.wrenches(&sample, &zero);
         let size = greatest(&self.wrenches(&sample, &sample.multipliers[0].clone()));
         if !size.is_finite() {
             return None;
         }
+        let size = if size > 0.0 { size } else { 1.0 };
         sample.stress = stress
             .into_iter()
             .map(|mut stress| {
@@ -280,13 +308,19 @@ impl Statics {
         self.run(sample, multipliers, self.outputs[output].clone())
     }
 
-    /// What changes of an output's scalars are made of, if multipliers change by so much, with nothing cancelled.
-    pub(super) fn bounds(&mut self, sample: &Sample, step: &[f64], output: usize) -> Vec<f64> {
+    /// What changes of an output's scalars are made of, if multipliers change by so much, with nothing cancelled: where the sample is, and
+    /// where nothing is closed.
+    pub(super) fn bounds(&mut self, sample: &Sample, step: &[f64], output: usize) -> [Vec<f64>; 2] {
         let roots = self.outputs[output].clone();
         let mut units = vec![0.0; sample.at.len()];
         self.multipliers.iter().zip(step).for_each(|(&symbol, &step)| units[symbol] = step);
-        self.tape.run_for(&mut self.values, &sample.at, roots.clone());
-        roots.map(|root| self.tape.slope_bound(&self.values, root, |symbol| units[symbol])).collect()
+        [&sample.at, &sample.anywhere].map(|at| {
+            let mut at = at.clone();
+            self.multipliers.iter().zip(&sample.multipliers[0]).for_each(|(&symbol, &x)| at[symbol] = x);
+            self.tape.run_for(&mut self.values, &at, roots.clone());
+            let bound = |root| self.tape.slope_bound(&self.values, root, |symbol| units[symbol]);
+            roots.clone().map(bound).map(|bound| if bound.is_finite() { bound } else { 0.0 }).collect()
+        })
     }
 }
 

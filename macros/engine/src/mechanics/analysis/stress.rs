@@ -4,22 +4,24 @@
 //! what rigid bodies don't determine. Self-stress ([`super::statics`]) moves nothing, and no equation tells of it. An output is
 //! determined if none changes it. If some does, the output still means something where the loads of every joint stand across
 //! those of self-stress, force to force and moment to moment: of the elastic energy of joints in these, nothing is
-//! mixed then, and it is least without any self-stress, however stiff each joint is. So it is for the hinges of a planar loop that is
-//! loaded in its plane, to which the axis of none gives a load: what carries nothing in truth is zero. All else would be what the
-//! choice of equations makes of it.
+//! mixed then if each joint gives way alike in all directions, and it is least without any self-stress, however stiff one joint is beside another.
+//! So it is for the hinges of a planar loop that is loaded in its plane, whose mirror image it is: what carries nothing in truth is zero. All else
+//! would be what the choice of equations makes of it. Loads and outputs that are made of pieces (`max`, `select`) are looked at with some of
+//! each piece: what acts only beyond a stop would else be missed.
 
 use std::collections::HashSet;
 use std::rc::Rc;
 
 use crate::mechanics::loops::constraints::{Writing, closing_name, row_name};
-use crate::mechanics::loops::structure::Structure;
+use crate::mechanics::loops::structure::{Row, Structure};
 use crate::mechanics::translate::dependencies::Dependencies;
+use crate::mechanics::translate::manipulations::holds;
 use crate::model::site::{Site, Sited};
-use crate::model::types::{Expr, ExprNode, JointId, LoopClosure, Model, Output};
+use crate::model::types::{ConstraintId, Expr, ExprNode, JointId, LoopClosure, Model, Output};
 
 use super::Complaint;
 use super::configurations::Search;
-use super::problem::{Problem, Random};
+use super::problem::{Point, Problem, Random};
 use super::singular::{add, dot};
 use super::statics::{Sample, Statics, Wrenches, difference, greatest};
 use super::tape::Values;
@@ -27,19 +29,34 @@ use super::tape::Values;
 /// As many closed poses are looked at, and as many of mechanisms with more freedoms and equations than `LARGE`.
 const POSES: usize = 4;
 const FEW: usize = 2;
+/// Parameters are off their defaults by about this much.
+const OFF: f64 = 0.1;
+/// The latest time that is looked at. [s]
+const LATE: f64 = 7.0;
 const LARGE: usize = 100;
 /// How far further ones are looked for from where coordinates stand by default.
 const AMPLITUDES: [f64; 8] = [0.1, 0.1, 0.2, 0.2, 0.4, 0.4, 0.8, 0.8];
 /// Beside all terms that a change is made of, and beside the greatest load.
 const NOTHING: f64 = 1e-7;
-/// Beside the greatest change of a load.
-const ROUNDING: f64 = 1e-12;
+/// Of a value that is made of much else.
+const DIGITS: f64 = 1e-11;
+/// Beside all terms that a change would be made of where nothing is closed.
+const ROUNDING: f64 = 1e-9;
 
-/// Outputs that read reactions, where equations may depend on each other.
+/// Outputs that read reactions or multipliers, where equations may depend on each other.
 fn asked<'m>(model: &'m Model, structure: &Structure) -> Vec<&'m Output> {
     let certain = structure.dropped.is_empty() && structure.wavering.is_empty() && !structure.redundant;
-    let reads = |output: &&Output| !Dependencies::of(std::iter::once(&output.value)).reactions().is_empty();
-    if certain { Vec::new() } else { model.outputs.iter().filter(reads).collect() }
+    let reads = |output: &&Output| {
+        let needs = Dependencies::of(std::iter::once(&output.value));
+        needs.multipliers || !needs.reactions().is_empty()
+    };
+    // What reads a multiplier that others share is refused when outputs are derived.
+    let is_told = |output: &&Output| {
+        let shared =
+            |row: &Row| matches!(row.closing, LoopClosure::Constraint(id) if reads_multiplier(&output.value, id));
+        structure.shared.iter().any(shared)
+    };
+    if certain { Vec::new() } else { model.outputs.iter().filter(|one| reads(one) && !is_told(one)).collect() }
 }
 
 /// Outputs that the mechanism doesn't determine, with loops in the axes of `writing`.
@@ -49,12 +66,19 @@ pub(super) fn complaints(model: &Model, structure: &Structure, writing: Writing)
         return Vec::new();
     }
     let problem = Problem::written(model, writing);
-    let mut statics = Statics::new(model, structure, writing, &outputs);
-    let mut random = Random(0x57E55);
-    let samples: Vec<Sample> = poses(&problem, structure)
-        .iter()
-        .filter_map(|positions| statics.sample(&problem, positions, &mut random))
-        .collect();
+    let poses = poses(model, &problem, structure);
+    let (mut statics, samples) = [true, false]
+        .into_iter()
+        .map(|blends| {
+            let mut statics = Statics::new(model, structure, writing, &outputs, blends);
+            let mut random = Random(0x57E55);
+            let samples: Vec<Sample> =
+                poses.iter().filter_map(|point| statics.sample(&problem, point, &mut random)).collect();
+            (statics, samples)
+        })
+        // The root of a blend may have no value.
+        .find(|(_, samples)| !samples.is_empty())
+        .unwrap_or_else(|| (Statics::new(model, structure, writing, &outputs, false), Vec::new()));
     let mut found = Vec::new();
     for (number, output) in outputs.iter().enumerate() {
         let open = match samples.is_empty() {
@@ -75,23 +99,34 @@ pub(in super::super) fn are_determined(model: &Model, structure: &Structure, wri
     complaints(model, structure, writing).is_empty()
 }
 
-/// Closed poses. Those that the structure knows have the greatest rank; where some branch of what is kept has less, as that on which a coupler moves on
-/// three parallel bars, others are looked for.
-fn poses(problem: &Problem, structure: &Structure) -> Vec<Vec<Vec<f64>>> {
+/// Closed poses. Those that the structure knows have the greatest rank, stand at time zero, and what is in no loop stands at its default in the
+/// first; so others are looked for: of other branches, such as that on which a coupler moves on three parallel bars, at other times, and with
+/// other parameters, where the loops close with these.
+fn poses(model: &Model, problem: &Problem, structure: &Structure) -> Vec<Point> {
     let size = problem.columns.len() + problem.equations.len();
-    let count = if size > LARGE { FEW } else { POSES };
-    let known = structure.closed.iter().take(count).map(|closed| closed.positions.clone());
-    let mut poses: Vec<Vec<Vec<f64>>> = known.collect();
-    if structure.redundant {
-        let (equations, columns): (Vec<usize>, Vec<usize>) =
-            ((0..problem.equations.len()).collect(), (0..problem.columns.len()).collect());
-        let (search, mut values) = (Search::new(problem, &equations, &columns), Values::default());
-        let mut random = Random(0xB4A2);
-        for amplitude in AMPLITUDES {
-            let mut point = problem.shaken(&problem.origin(), &mut random, amplitude, &[]);
-            if search.close(&mut point, &mut values) {
-                poses.push(problem.positions(&point));
-            }
+    let (known, further) = if size > LARGE { (FEW, FEW) } else { (POSES, AMPLITUDES.len()) };
+    let mut poses: Vec<Point> =
+        structure.closed.iter().take(known).map(|closed| problem.at(&closed.positions)).collect();
+    poses.extend(further_poses(problem, &AMPLITUDES[..further]));
+    if problem.is_adjustable() {
+        poses.extend(further_poses(&problem.moved(model, OFF), &AMPLITUDES[..further.min(POSES)]));
+    }
+    poses
+}
+
+fn further_poses(problem: &Problem, amplitudes: &[f64]) -> Vec<Point> {
+    let equations: Vec<usize> = (0..problem.equations.len()).collect();
+    let columns: Vec<usize> = (0..problem.columns.len()).collect();
+    let driven = problem.driven_columns();
+    let search = Search::new(problem, &equations, &columns).holding(&driven);
+    let (mut values, mut random) = (Values::default(), Random(0xB4A2));
+    let mut poses = Vec::new();
+    for &amplitude in amplitudes {
+        let mut point = problem.shaken(&problem.origin(), &mut random, amplitude, &driven);
+        problem.put_time(&mut point, LATE * random.next().abs());
+        problem.drive(&mut point, &mut values);
+        if search.close(&mut point, &mut values) && !problem.locks(&point, &columns) {
+            poses.push(point);
         }
     }
     poses
@@ -109,13 +144,23 @@ impl Statics {
     fn open(&mut self, sample: &Sample, output: usize) -> Option<HashSet<usize>> {
         let multipliers = &sample.multipliers[0];
         let loads = self.wrenches(sample, multipliers);
-        let mut stresses: Vec<(&Vec<f64>, Wrenches)> = Vec::new();
-        for stress in &sample.stress {
-            let with = |factor: f64| multipliers.iter().zip(stress).map(|(a, b)| a + factor * b).collect::<Vec<f64>>();
-            // Far enough for what is cut off where a load has one sign.
-            if [1.0, -1.0, 10.0, -10.0].iter().any(|&factor| self.is_moved(sample, &with(factor), output)) {
-                stresses.push((stress, difference(&self.wrenches(sample, &with(1.0)), &loads)));
+        let with = |stress: &[f64]| multipliers.iter().zip(stress).map(|(a, b)| a + b).collect::<Vec<f64>>();
+        let all: Vec<usize> = (0..sample.stress.len()).collect();
+        let moves = |statics: &mut Statics, &k: &usize| statics.is_moved(sample, &with(&sample.stress[k]), output);
+        let mut open: Vec<usize> = all.iter().copied().filter(|k| moves(self, k)).collect();
+        if open.is_empty() && all.len() > 1 {
+            // A product of loads may be moved by no one stress alone.
+            let mut sum = vec![0.0; multipliers.len()];
+            for (k, stress) in sample.stress.iter().enumerate() {
+                add(&mut sum, 0.4 + (0.618_033_988_749_895 * k as f64).fract(), stress);
             }
+            if self.is_moved(sample, &with(&sum), output) {
+                open = all;
+            }
+        }
+        let mut stresses: Vec<(&Vec<f64>, Wrenches)> = Vec::new();
+        for stress in open.into_iter().map(|k| &sample.stress[k]) {
+            stresses.push((stress, difference(&self.wrenches(sample, &with(stress)), &loads)));
         }
         let touched = |(_, wrenches): &(&Vec<f64>, Wrenches)| {
             let most = greatest(wrenches);
@@ -125,7 +170,9 @@ impl Statics {
         let joints: HashSet<usize> = stresses.iter().flat_map(touched).collect();
         let is_zero = |multipliers: &Vec<f64>| {
             let loads = self.wrenches(sample, multipliers);
-            stands_across(&loads, &stresses) && self.bears_nothing(multipliers, &stresses)
+            // Of what the stress is in: what hangs elsewhere may weigh more.
+            let most = greatest(&joints.iter().filter_map(|&joint| loads.get(joint).copied()).collect());
+            stands_across(&loads, &stresses, most) && self.bears_nothing(multipliers, &stresses, most)
         };
         (!stresses.is_empty() && !sample.multipliers.iter().all(is_zero)).then_some(joints)
     }
@@ -135,35 +182,30 @@ impl Statics {
         let multipliers = &sample.multipliers[0];
         let (own, other) = (self.output(sample, multipliers, output), self.output(sample, others, output));
         let step: Vec<f64> = multipliers.iter().zip(others).map(|(a, b)| (a - b).abs()).collect();
-        let bounds = self.bounds(sample, &step, output);
-        // What is zero at the pose, as an axis across an axis, is rounding beside nothing.
-        let rounding =
-            ROUNDING * greatest(&difference(&self.wrenches(sample, others), &self.wrenches(sample, multipliers)));
-        let differs = |((a, b), bound): ((&f64, &f64), &f64)| {
-            // What has no number tells nothing.
-            let change = (a - b).abs();
-            change.is_nan() || change > NOTHING * bound + rounding
+        // What is zero at a closed pose, as an axis across an axis, is rounding beside what it is elsewhere.
+        let [here, anywhere] = self.bounds(sample, &step, output);
+        let least = here.iter().zip(anywhere).map(|(here, anywhere)| NOTHING * here + ROUNDING * anywhere);
+        // What has no number tells nothing.
+        let differs = |((a, b), least): ((&f64, &f64), f64)| {
+            (a - b).is_nan() || (a - b).abs() > least + DIGITS * a.abs().max(b.abs())
         };
-        own.iter().zip(&other).zip(&bounds).any(differs)
+        own.iter().zip(&other).zip(least).any(differs)
     }
 
     /// Whether constraints that hold by no joint, such as rods, bear none of the loads where self-stress has a part of them.
-    fn bears_nothing(&self, multipliers: &[f64], stresses: &[(&Vec<f64>, Wrenches)]) -> bool {
-        let most = multipliers.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-        self.rows().iter().enumerate().all(|(k, row)| {
-            let strained = |(stress, _): &(&Vec<f64>, Wrenches)| {
-                stress[k].abs() > NOTHING * stress.iter().fold(0.0_f64, |most, x| most.max(x.abs()))
-            };
-            matches!(row.closing, LoopClosure::Cut(_))
-                || multipliers[k].abs() <= NOTHING * most
-                || !stresses.iter().any(strained)
-        })
+    fn bears_nothing(&self, multipliers: &[f64], stresses: &[(&Vec<f64>, Wrenches)], most: f64) -> bool {
+        let longest = |list: &[f64]| list.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        let is_strained = |&k: &usize| stresses.iter().any(|(stress, _)| stress[k].abs() > NOTHING * longest(stress));
+        let strained: Vec<usize> = (0..multipliers.len()).filter(is_strained).collect();
+        let most = strained.iter().fold(most, |most, &k| most.max(multipliers[k].abs()));
+        let is_cut = |k: usize| matches!(self.rows()[k].closing, LoopClosure::Cut(_));
+        strained.iter().all(|&k| is_cut(k) || multipliers[k].abs() <= NOTHING * most)
     }
 }
 
 /// Whether at each joint force and moment have no part along any of self-stress.
-fn stands_across(loads: &Wrenches, stresses: &[(&Vec<f64>, Wrenches)]) -> bool {
-    let (most, strained) = (greatest(loads), stresses.iter().map(|one| greatest(&one.1)).fold(0.0, f64::max));
+fn stands_across(loads: &Wrenches, stresses: &[(&Vec<f64>, Wrenches)], most: f64) -> bool {
+    let strained = stresses.iter().map(|one| greatest(&one.1)).fold(0.0, f64::max);
     (0..loads.len()).all(|joint| {
         (0..2).all(|part| {
             let mut basis: Vec<Vec<f64>> = Vec::new();
@@ -204,6 +246,10 @@ fn complaint(model: &Model, structure: &Structure, output: &Output, joints: &Has
                 .to_owned(),
         ),
     }
+}
+
+fn reads_multiplier(value: &Expr, constraint: ConstraintId) -> bool {
+    holds(value, |node| matches!(node, ExprNode::Multiplier(id) if *id == constraint))
 }
 
 /// The first reaction that is read of some joints.

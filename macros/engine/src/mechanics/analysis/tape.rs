@@ -18,6 +18,10 @@ enum Op {
     Sin,
     Cos,
     Call(Call),
+    /// So much of the last operand but one, the rest of the last, and more or less of these by a mask before them.
+    Blend(f64),
+    /// The first operand less the second.
+    Apart,
     /// What has no number here.
     Unknown,
 }
@@ -36,6 +40,9 @@ struct Edge {
     node: usize,
     sign: f64,
 }
+
+/// How much more of one piece a mask makes of a blend.
+const MASK: f64 = 0.1;
 
 /// A straight-line program for numbers.
 pub(super) struct Tape {
@@ -111,6 +118,31 @@ impl Tape {
         tape
     }
 
+    /// The same with some of each piece in place of one of them, whatever would choose: what acts beyond a stop acts a little. What some
+    /// `exact` roots need stays.
+    pub(super) fn blended(mut self, exact: impl Iterator<Item = usize>) -> Tape {
+        let mut stays = vec![false; self.nodes.len()];
+        for root in exact {
+            self.needs[root].iter().for_each(|&node| stays[node] = true);
+        }
+        for (k, node) in self.nodes.iter_mut().enumerate() {
+            let Op::Call(call) = node.op else { continue };
+            if stays[k] {
+                continue;
+            }
+            node.op = match call {
+                // Another share for each, between 0.3 and 0.7.
+                Call::Min | Call::Max | Call::Select => {
+                    Op::Blend(0.3 + 0.4 * (0.618_033_988_749_895 * k as f64).fract())
+                }
+                Call::And | Call::Or | Call::Not => Op::Sum,
+                Call::Less | Call::LessEqual | Call::Equal => Op::Apart,
+                _ => node.op,
+            };
+        }
+        self
+    }
+
     fn needs_of(&self, root: usize) -> Vec<usize> {
         let Some(root) = self.roots.get(root) else { return Vec::new() };
         let mut marked = vec![false; root.node + 1];
@@ -141,9 +173,10 @@ impl Tape {
     /// Whether a root is the same function wherever it has a value, and not another one in pieces.
     pub(super) fn is_analytic(&self, root: usize) -> bool {
         self.needs[root].iter().all(|&index| match self.nodes[index].op {
-            Op::Call(Call::Min | Call::Max | Call::Select | Call::Abs | Call::Signum | Call::Nan) | Op::Unknown => {
-                false
-            }
+            Op::Call(Call::Min | Call::Max | Call::Select | Call::Abs | Call::Signum | Call::Nan)
+            | Op::Blend(_)
+            | Op::Apart
+            | Op::Unknown => false,
             Op::Call(call) => !call.is_comparison(),
             Op::Literal(_) | Op::Symbol(_) | Op::Sum | Op::Product | Op::Reciprocal | Op::Sin | Op::Cos => true,
         })
@@ -202,6 +235,12 @@ impl Tape {
             Op::Reciprocal => 1.0 / operand(list, &operands[0]),
             Op::Sin => operand(list, &operands[0]).sin(),
             Op::Cos => operand(list, &operands[0]).cos(),
+            Op::Blend(share) => {
+                let [before @ .., a, b] = operands else { return f64::NAN };
+                let share = share + before.iter().map(|mask| MASK * operand(list, mask)).sum::<f64>();
+                share * operand(list, a) + (1.0 - share) * operand(list, b)
+            }
+            Op::Apart => operand(list, &operands[0]) - operands.get(1).map_or(f64::NAN, |edge| operand(list, edge)),
             Op::Call(call) => {
                 let mut x = [0.0; 3];
                 for (slot, edge) in x.iter_mut().zip(operands) {
@@ -268,6 +307,23 @@ impl Tape {
                         slopes[edge.node] -= edge.sign * slope * operand(values, &operands[0]).sin();
                     }
                 }
+                Op::Blend(share) => {
+                    if let [before @ .., a, b] = operands {
+                        let apart = operand(values, a) - operand(values, b);
+                        let share = share + before.iter().map(|mask| MASK * operand(values, mask)).sum::<f64>();
+                        slopes[a.node] += a.sign * slope * share;
+                        slopes[b.node] += b.sign * slope * (1.0 - share);
+                        for mask in before {
+                            slopes[mask.node] += mask.sign * slope * MASK * apart;
+                        }
+                    }
+                }
+                Op::Apart => {
+                    if let [a, b, ..] = operands {
+                        slopes[a.node] += a.sign * slope;
+                        slopes[b.node] -= b.sign * slope;
+                    }
+                }
                 Op::Call(call) => {
                     let x = arguments(values, operands);
                     for (k, edge) in operands.iter().enumerate().take(3) {
@@ -295,6 +351,7 @@ impl Tape {
                 Op::Product => operands.iter().map(|edge| sizes[edge.node]).product(),
                 Op::Reciprocal => size(0) * values[index] * values[index],
                 Op::Sin | Op::Cos => 1.0,
+                Op::Blend(_) | Op::Apart => (0..operands.len()).map(size).sum(),
                 Op::Call(call) => {
                     let x = arguments(values, operands);
                     let slope = |k: usize| call_slope(call, &x, k, values[index]).abs();
@@ -316,7 +373,7 @@ impl Tape {
             for (k, edge) in operands.iter().enumerate() {
                 let factor = match node.op {
                     Op::Literal(_) | Op::Symbol(_) | Op::Unknown => 0.0,
-                    Op::Sum | Op::Sin | Op::Cos => 1.0,
+                    Op::Sum | Op::Sin | Op::Cos | Op::Blend(_) | Op::Apart => 1.0,
                     Op::Product => {
                         let others = operands.iter().enumerate().filter(|other| other.0 != k);
                         others.map(|other| sizes[other.1.node]).product()

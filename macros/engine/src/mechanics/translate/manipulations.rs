@@ -478,7 +478,7 @@ fn springs_read_inputs(model: &Model) -> bool {
 }
 
 /// Whether a node of an expression is of a kind.
-fn holds(expr: &Expr, is: impl Fn(&ExprNode) -> bool) -> bool {
+pub(in crate::mechanics) fn holds(expr: &Expr, is: impl Fn(&ExprNode) -> bool) -> bool {
     let mut stack = vec![expr];
     let mut seen = HashSet::new();
     while let Some(expr) = stack.pop() {
