@@ -75,6 +75,11 @@ pub(super) fn real(radicand: &Formula, is_square: bool, line: &Formula, hidden: 
     }
 }
 
+/// Whether it is a vector by itself, which may be written out as any polynomial.
+pub(super) fn is_square(g: &Graph, radicand: Scalar) -> bool {
+    matches!(*g.node(radicand), ScalarNode::Dot(a, b) if a == b) && !radicand.is_negative()
+}
+
 /// Of what is written as numbers and squares, added and multiplied, and so is never negative: whether it is never zero.
 fn at_least_zero(formula: &Formula) -> Option<bool> {
     match formula {

@@ -17,7 +17,6 @@ use crate::mechanics::results::parts::Parts;
 use crate::mechanics::translate::forces::LoadCase;
 use crate::model::types::{Coordinate, JointId, Type};
 use crate::symbolic::graph::{Graph, Scalar, ScalarNode, SymbolId};
-use crate::symbolic::signs::is_positive;
 use crate::symbolic::write::formula::{Class, Equation, Formula, Function, Identifier};
 use crate::symbolic::write::{self, Names, Wanted, Writing};
 
@@ -150,7 +149,8 @@ impl Sections {
                 lines.push(Line { subject: Subject::Definition, equation, says });
             }
             let radicand = draft.radicand.and_then(|root| Some((root, radicands.next()?)));
-            under_roots.extend(radicand.map(|(root, radicand)| (draft.subject, radicand, is_positive(&e.g, root))));
+            under_roots
+                .extend(radicand.map(|(root, radicand)| (draft.subject, radicand, domains::is_square(&e.g, root))));
             let equation = Equation { left: draft.left, right };
             lines.push(Line { subject: draft.subject, equation, says: draft.says });
         }
