@@ -28,9 +28,9 @@ const DEPENDENT: f64 = 1e-9;
 /// Of the poses with other parameters, the least that tell of anything that holds everywhere.
 const LEAST: usize = 2;
 /// Parameters are off their defaults by about this much.
-const OFF: f64 = 0.1;
+pub(super) const OFF: f64 = 0.1;
 /// The latest time that is looked at. [s]
-const LATE: f64 = 7.0;
+pub(super) const LATE: f64 = 7.0;
 
 /// A row of the whole mechanism: slopes, and what is left at rest.
 type Gradient = (Vec<f64>, f64);

@@ -12,6 +12,7 @@ use std::ops::Range;
 use std::rc::Rc;
 
 use crate::contracts::symbol::Symbol;
+use crate::invariant::fault::raise;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::loops::constraints::{Writing, closings, rate_rows, row_count};
 use crate::mechanics::loops::reduction::Reduction;
@@ -23,17 +24,16 @@ use crate::mechanics::translate::forces::LoadCase;
 use crate::mechanics::translate::symbols::Symbols;
 use crate::mechanics::translate::values::Value;
 use crate::model::types::{JointId, Model, Output};
+use crate::symbolic::evaluate::solve_f64;
 use crate::symbolic::graph::{Graph, Scalar};
 use crate::symbolic::lower::Lowering;
 
-use super::dense::{ROUNDING, least, pivoted, unit};
+use super::dense::{ROUNDING, least, unit};
 use super::problem::{Point, Problem, Random};
-use super::rank;
+use super::rank::{self, Basis};
+use super::rates::LATE;
 use super::singular::dot;
 use super::tape::{Tape, Values};
-
-/// The latest time that is looked at. [s]
-const LATE: f64 = 7.0;
 
 /// What is looked at, as programs for numbers.
 pub(super) struct Statics {
@@ -76,6 +76,9 @@ pub(super) struct Sample {
 
 /// Force and moment by joint.
 pub(super) type Wrenches = Vec<[[f64; 3]; 2]>;
+
+/// Rows of slopes, and values where what they are slopes by is zero.
+type Linear = (Vec<Vec<f64>>, Vec<f64>);
 
 /// Roots of one tape.
 #[derive(Default)]
@@ -198,35 +201,12 @@ impl Statics {
         let closings = self.linear(&at, self.second.clone(), &columns);
         let freedoms = self.accelerations.len();
         let stress = stresses(&forces.0, freedoms, self.rows.len());
-        let kept: Vec<&Vec<f64>> = self.kept.iter().map(|&k| &closings.0[k]).collect();
-        let dependent = !rank::combinations(&unit(kept.iter().map(|row| row[..freedoms].to_vec()))).is_empty();
-        // As the runtime's pivots fall, or as they don't.
-        let ways = if dependent { 2 } else { 1 };
+        let held: Vec<Vec<f64>> = unit(self.kept.iter().map(|&k| closings.0[k][..freedoms].to_vec()));
         let mut multipliers = Vec::new();
-        for way in 0..ways {
-            let weight = |k: usize| if way == 0 { 1.0 } else { [1.0, 0.2, 4.0, 0.7, 2.0][k % 5] };
-            let in_kept = |row: &[f64]| -> Vec<f64> {
-                let own = self.kept.iter().enumerate().map(|(k, &place)| row[freedoms + place] * weight(k));
-                row[..freedoms].iter().copied().chain(own).collect()
-            };
-            let mut matrix: Vec<Vec<f64>> = forces.0.iter().map(|row| in_kept(row)).collect();
-            matrix.extend(
-                self.kept
-                    .iter()
-                    .enumerate()
-                    .map(|(k, &place)| in_kept(&closings.0[place]).into_iter().map(|x| x * weight(k)).collect()),
-            );
-            let mut rest: Vec<f64> = forces.1.iter().map(|x| -x).collect();
-            rest.extend(self.kept.iter().enumerate().map(|(k, &place)| -closings.1[place] * weight(k)));
-            let solution = pivoted(matrix, rest);
-            if way == 0 {
-                for (&symbol, x) in self.accelerations.iter().zip(&solution) {
-                    at[symbol] = *x;
-                }
-            }
-            let mut all = vec![0.0; self.rows.len()];
-            for (k, &place) in self.kept.iter().enumerate() {
-                all[place] = solution[freedoms + k] * weight(k);
+        for rows in self.ways(&held) {
+            let (accelerations, all) = self.solution(&forces, &closings, &rows);
+            if multipliers.is_empty() {
+                self.accelerations.iter().zip(accelerations).for_each(|(&symbol, x)| at[symbol] = x);
             }
             multipliers.push(all);
         }
@@ -253,6 +233,31 @@ impl Statics {
         Some(sample)
     }
 
+    /// Which of the kept rows hold the mechanism: all of them, as the runtime's pivots choose; where they depend on each other, the last ones that
+    /// don't as well.
+    fn ways(&self, held: &[Vec<f64>]) -> Vec<Vec<usize>> {
+        let mut basis = Basis::default();
+        let mut last: Vec<usize> =
+            (0..held.len()).filter(|&k| basis.grow(&held[held.len() - 1 - k], rank::DEPENDENT)).collect();
+        last.iter_mut().for_each(|k| *k = self.kept[held.len() - 1 - *k]);
+        if last.len() == held.len() { vec![self.kept.clone()] } else { vec![self.kept.clone(), last] }
+    }
+
+    /// Accelerations, and multipliers of all rows, if some of them hold the mechanism.
+    fn solution(&self, forces: &Linear, closings: &Linear, rows: &[usize]) -> (Vec<f64>, Vec<f64>) {
+        let freedoms = self.accelerations.len();
+        let own = |row: &[f64]| -> Vec<f64> {
+            row[..freedoms].iter().copied().chain(rows.iter().map(|&k| row[freedoms + k])).collect()
+        };
+        let all = forces.0.iter().chain(rows.iter().map(|&k| &closings.0[k]));
+        let matrix: Vec<f64> = all.flat_map(|row| own(row)).collect();
+        let right: Vec<f64> = forces.1.iter().chain(rows.iter().map(|&k| &closings.1[k])).map(|x| -x).collect();
+        let solution = solve_f64(&matrix, &right);
+        let mut multipliers = vec![0.0; self.rows.len()];
+        rows.iter().zip(&solution[freedoms..]).for_each(|(&k, &x)| multipliers[k] = x);
+        (solution[..freedoms].to_vec(), multipliers)
+    }
+
     /// Velocities become the nearest ones that the equations allow.
     fn move_along(&mut self, at: &mut [f64]) -> Option<()> {
         let (rows, rest) = self.linear_at(at, self.rates.clone(), &self.velocities.clone());
@@ -266,13 +271,13 @@ impl Statics {
     }
 
     /// Roots with accelerations and multipliers at zero, and their slopes.
-    fn linear(&mut self, at: &[f64], roots: Range<usize>, columns: &[usize]) -> (Vec<Vec<f64>>, Vec<f64>) {
+    fn linear(&mut self, at: &[f64], roots: Range<usize>, columns: &[usize]) -> Linear {
         let mut still = at.to_vec();
         columns.iter().for_each(|&symbol| still[symbol] = 0.0);
         self.linear_at(&still, roots, columns)
     }
 
-    fn linear_at(&mut self, at: &[f64], roots: Range<usize>, columns: &[usize]) -> (Vec<Vec<f64>>, Vec<f64>) {
+    fn linear_at(&mut self, at: &[f64], roots: Range<usize>, columns: &[usize]) -> Linear {
         self.tape.run_for(&mut self.values, at, roots.clone());
         let mut place = vec![usize::MAX; at.len()];
         columns.iter().enumerate().for_each(|(k, &symbol)| place[symbol] = k);
@@ -343,7 +348,9 @@ fn held<'m>(model: &'m Model, rows: Vec<Row>, writing: Writing, outputs: &[&Outp
 impl Equations<'_> {
     /// What a joint transmits, in world axes.
     fn transmitted_in_world(&mut self, joint: JointId) -> [Scalar; 6] {
-        let Value::Pair(force, moment) = self.reaction(joint, &FixedFrame::GROUND) else { return [Scalar::ZERO; 6] };
+        let Value::Pair(force, moment) = self.reaction(joint, &FixedFrame::GROUND) else {
+            raise("a reaction is a force and a moment")
+        };
         let [force, moment] = [force, moment].map(|v| self.g.components(v));
         [force[0], force[1], force[2], moment[0], moment[1], moment[2]]
     }

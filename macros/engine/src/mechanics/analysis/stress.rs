@@ -22,17 +22,15 @@ use crate::model::types::{ConstraintId, Expr, ExprNode, JointId, LoopClosure, Mo
 use super::Complaint;
 use super::configurations::Search;
 use super::problem::{Point, Problem, Random};
-use super::singular::{add, dot};
+use super::rank::Basis;
+use super::rates::{LATE, OFF};
+use super::singular::add;
 use super::statics::{Sample, Statics, Wrenches, difference, greatest};
 use super::tape::Values;
 
 /// As many closed poses are looked at, and as many of mechanisms with more freedoms and equations than `LARGE`.
 const POSES: usize = 4;
 const FEW: usize = 2;
-/// Parameters are off their defaults by about this much.
-const OFF: f64 = 0.1;
-/// The latest time that is looked at. [s]
-const LATE: f64 = 7.0;
 const LARGE: usize = 100;
 /// How far further ones are looked for from where coordinates stand by default.
 const AMPLITUDES: [f64; 8] = [0.1, 0.1, 0.2, 0.2, 0.4, 0.4, 0.8, 0.8];
@@ -42,6 +40,13 @@ const NOTHING: f64 = 1e-7;
 const DIGITS: f64 = 1e-11;
 /// Beside all terms that a change would be made of where nothing is closed.
 const ROUNDING: f64 = 1e-9;
+
+/// Self-stress: joints that it loads, and equations that hold it.
+#[derive(Default)]
+struct Open {
+    joints: HashSet<usize>,
+    rows: Vec<Row>,
+}
 
 /// Outputs that read reactions or multipliers, where equations may depend on each other.
 fn asked<'m>(model: &'m Model, structure: &Structure) -> Vec<&'m Output> {
@@ -67,29 +72,29 @@ pub(super) fn complaints(model: &Model, structure: &Structure, writing: Writing)
     }
     let problem = Problem::written(model, writing);
     let poses = poses(model, &problem, structure);
-    let (mut statics, samples) = [true, false]
-        .into_iter()
-        .map(|blends| {
-            let mut statics = Statics::new(model, structure, writing, &outputs, blends);
-            let mut random = Random(0x57E55);
-            let samples: Vec<Sample> =
-                poses.iter().filter_map(|point| statics.sample(&problem, point, &mut random)).collect();
-            (statics, samples)
-        })
+    let sampled = |blends: bool| {
+        let mut statics = Statics::new(model, structure, writing, &outputs, blends);
+        let mut random = Random(0x57E55);
+        let samples: Vec<Sample> =
+            poses.iter().filter_map(|point| statics.sample(&problem, point, &mut random)).collect();
+        (statics, samples)
+    };
+    let (mut statics, mut samples) = sampled(true);
+    if samples.is_empty() {
         // The root of a blend may have no value.
-        .find(|(_, samples)| !samples.is_empty())
-        .unwrap_or_else(|| (Statics::new(model, structure, writing, &outputs, false), Vec::new()));
+        (statics, samples) = sampled(false);
+    }
     let mut found = Vec::new();
     for (number, output) in outputs.iter().enumerate() {
         let open = match samples.is_empty() {
             // Nothing is known of it.
-            true => Some(HashSet::new()),
+            true => Some(Open::default()),
             false => samples
                 .iter()
                 .filter(|sample| is_typical(sample, &samples))
                 .find_map(|sample| statics.open(sample, number)),
         };
-        found.extend(open.map(|joints| complaint(model, structure, output, &joints)));
+        found.extend(open.map(|open| complaint(model, structure, output, &open)));
     }
     found
 }
@@ -140,8 +145,8 @@ fn is_typical(sample: &Sample, all: &[Sample]) -> bool {
 }
 
 impl Statics {
-    /// Joints that have self-stress which an output depends on, if there are any and it is not zero in truth.
-    fn open(&mut self, sample: &Sample, output: usize) -> Option<HashSet<usize>> {
+    /// Self-stress that an output depends on, if there is any and it is not zero in truth.
+    fn open(&mut self, sample: &Sample, output: usize) -> Option<Open> {
         let multipliers = &sample.multipliers[0];
         let loads = self.wrenches(sample, multipliers);
         let with = |stress: &[f64]| multipliers.iter().zip(stress).map(|(a, b)| a + b).collect::<Vec<f64>>();
@@ -174,7 +179,8 @@ impl Statics {
             let most = greatest(&joints.iter().filter_map(|&joint| loads.get(joint).copied()).collect());
             stands_across(&loads, &stresses, most) && self.bears_nothing(multipliers, &stresses, most)
         };
-        (!stresses.is_empty() && !sample.multipliers.iter().all(is_zero)).then_some(joints)
+        let is_open = !stresses.is_empty() && !sample.multipliers.iter().all(is_zero);
+        is_open.then(|| Open { rows: strained(&stresses).into_iter().map(|k| self.rows()[k]).collect(), joints })
     }
 
     /// Whether an output has another value with other multipliers, beyond roundings of what it is made of.
@@ -194,13 +200,21 @@ impl Statics {
 
     /// Whether constraints that hold by no joint, such as rods, bear none of the loads where self-stress has a part of them.
     fn bears_nothing(&self, multipliers: &[f64], stresses: &[(&Vec<f64>, Wrenches)], most: f64) -> bool {
-        let longest = |list: &[f64]| list.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-        let is_strained = |&k: &usize| stresses.iter().any(|(stress, _)| stress[k].abs() > NOTHING * longest(stress));
-        let strained: Vec<usize> = (0..multipliers.len()).filter(is_strained).collect();
+        let strained = strained(stresses);
         let most = strained.iter().fold(most, |most, &k| most.max(multipliers[k].abs()));
         let is_cut = |k: usize| matches!(self.rows()[k].closing, LoopClosure::Cut(_));
         strained.iter().all(|&k| is_cut(k) || multipliers[k].abs() <= NOTHING * most)
     }
+}
+
+/// Places of rows that take part in any of self-stress.
+fn strained(stresses: &[(&Vec<f64>, Wrenches)]) -> Vec<usize> {
+    let takes_part = |stress: &[f64], k: usize| {
+        let most = stress.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        stress[k].abs() > NOTHING * most
+    };
+    let count = stresses.first().map_or(0, |one| one.0.len());
+    (0..count).filter(|&k| stresses.iter().any(|(stress, _)| takes_part(stress, k))).collect()
 }
 
 /// Whether at each joint force and moment have no part along any of self-stress.
@@ -208,31 +222,25 @@ fn stands_across(loads: &Wrenches, stresses: &[(&Vec<f64>, Wrenches)], most: f64
     let strained = stresses.iter().map(|one| greatest(&one.1)).fold(0.0, f64::max);
     (0..loads.len()).all(|joint| {
         (0..2).all(|part| {
-            let mut basis: Vec<Vec<f64>> = Vec::new();
+            let mut basis = Basis::default();
             for (_, wrenches) in stresses {
-                let mut rest = wrenches[joint][part].to_vec();
-                for unit in basis.iter().chain(&basis) {
-                    let along = dot(unit, &rest);
-                    add(&mut rest, -along, unit);
-                }
-                let length = dot(&rest, &rest).sqrt();
-                if length > NOTHING * strained {
-                    basis.push(rest.iter().map(|x| x / length).collect());
-                }
+                basis.grow(&wrenches[joint][part], NOTHING * strained);
             }
-            basis.iter().all(|unit| dot(unit, &loads[joint][part]).abs() <= NOTHING * most)
+            let load = loads[joint][part];
+            let across = basis.rest(&load);
+            load.iter().zip(across).all(|(whole, across)| (whole - across).abs() <= NOTHING * most)
         })
     })
 }
 
-fn complaint(model: &Model, structure: &Structure, output: &Output, joints: &HashSet<usize>) -> Complaint {
-    let (joint, at) = first_read(&output.value, joints).unwrap_or_else(|| (None, output.value.site()));
+fn complaint(model: &Model, structure: &Structure, output: &Output, open: &Open) -> Complaint {
+    let (joint, at) = first_read(&output.value, &open.joints).unwrap_or_else(|| (None, output.value.site()));
     let what = match joint {
         Some(joint) => format!("a reaction of `{}`", closing_name(model, LoopClosure::Cut(joint))),
         None => format!("the output `{}`", output.place.field),
     };
-    let rows: Vec<String> =
-        structure.dropped.iter().map(|row| format!("`{}`", row_name(model, row.closing, row.index))).collect();
+    let dropped = structure.dropped.iter().filter(|row| open.rows.contains(row));
+    let rows: Vec<String> = dropped.map(|row| format!("`{}`", row_name(model, row.closing, row.index))).collect();
     let why = match rows.is_empty() {
         true => "equations of loops depend on each other".to_owned(),
         false => format!("{} follow{} from other equations", rows.join(", "), if rows.len() == 1 { "s" } else { "" }),

@@ -22,6 +22,8 @@ enum Op {
     Blend(f64),
     /// The first operand less the second.
     Apart,
+    /// So much of the operand.
+    Part(f64),
     /// What has no number here.
     Unknown,
 }
@@ -130,11 +132,11 @@ impl Tape {
             if stays[k] {
                 continue;
             }
+            // Another one for each, between 0.3 and 0.7.
+            let share = 0.3 + 0.4 * (0.618_033_988_749_895 * k as f64).fract();
             node.op = match call {
-                // Another share for each, between 0.3 and 0.7.
-                Call::Min | Call::Max | Call::Select => {
-                    Op::Blend(0.3 + 0.4 * (0.618_033_988_749_895 * k as f64).fract())
-                }
+                Call::Min | Call::Max | Call::Select => Op::Blend(share),
+                Call::Abs | Call::Signum => Op::Part(share),
                 Call::And | Call::Or | Call::Not => Op::Sum,
                 Call::Less | Call::LessEqual | Call::Equal => Op::Apart,
                 _ => node.op,
@@ -176,6 +178,7 @@ impl Tape {
             Op::Call(Call::Min | Call::Max | Call::Select | Call::Abs | Call::Signum | Call::Nan)
             | Op::Blend(_)
             | Op::Apart
+            | Op::Part(_)
             | Op::Unknown => false,
             Op::Call(call) => !call.is_comparison(),
             Op::Literal(_) | Op::Symbol(_) | Op::Sum | Op::Product | Op::Reciprocal | Op::Sin | Op::Cos => true,
@@ -240,6 +243,7 @@ impl Tape {
                 let share = share + before.iter().map(|mask| MASK * operand(list, mask)).sum::<f64>();
                 share * operand(list, a) + (1.0 - share) * operand(list, b)
             }
+            Op::Part(share) => share * operand(list, &operands[0]),
             Op::Apart => operand(list, &operands[0]) - operands.get(1).map_or(f64::NAN, |edge| operand(list, edge)),
             Op::Call(call) => {
                 let mut x = [0.0; 3];
@@ -318,6 +322,11 @@ impl Tape {
                         }
                     }
                 }
+                Op::Part(share) => {
+                    if let Some(edge) = operands.first() {
+                        slopes[edge.node] += edge.sign * slope * share;
+                    }
+                }
                 Op::Apart => {
                     if let [a, b, ..] = operands {
                         slopes[a.node] += a.sign * slope;
@@ -351,7 +360,8 @@ impl Tape {
                 Op::Product => operands.iter().map(|edge| sizes[edge.node]).product(),
                 Op::Reciprocal => size(0) * values[index] * values[index],
                 Op::Sin | Op::Cos => 1.0,
-                Op::Blend(_) | Op::Apart => (0..operands.len()).map(size).sum(),
+                Op::Blend(_) => blend_bound(&operands.iter().map(|edge| sizes[edge.node]).collect::<Vec<_>>()),
+                Op::Apart | Op::Part(_) => (0..operands.len()).map(size).sum(),
                 Op::Call(call) => {
                     let x = arguments(values, operands);
                     let slope = |k: usize| call_slope(call, &x, k, values[index]).abs();
@@ -373,7 +383,12 @@ impl Tape {
             for (k, edge) in operands.iter().enumerate() {
                 let factor = match node.op {
                     Op::Literal(_) | Op::Symbol(_) | Op::Unknown => 0.0,
-                    Op::Sum | Op::Sin | Op::Cos | Op::Blend(_) | Op::Apart => 1.0,
+                    Op::Sum | Op::Sin | Op::Cos | Op::Apart | Op::Part(_) => 1.0,
+                    Op::Blend(_) => {
+                        let mut all: Vec<f64> = operands.iter().map(|edge| sizes[edge.node]).collect();
+                        all[k] = 1.0;
+                        blend_bound(&all)
+                    }
                     Op::Product => {
                         let others = operands.iter().enumerate().filter(|other| other.0 != k);
                         others.map(|other| sizes[other.1.node]).product()
@@ -406,6 +421,12 @@ fn operand(values: &[f64], edge: &Edge) -> f64 {
 /// Of a function, which reads as many of them as it has.
 fn arguments(values: &[f64], operands: &[Edge]) -> [f64; 3] {
     [0, 1, 2].map(|k| operands.get(k).map_or(f64::NAN, |edge| operand(values, edge)))
+}
+
+/// Of a blend, from bounds of its operands.
+fn blend_bound(operands: &[f64]) -> f64 {
+    let [before @ .., a, b] = operands else { return 0.0 };
+    (1.0 + MASK * before.iter().sum::<f64>()) * (a + b)
 }
 
 /// Derivative of a function by its argument number k; `y` is its value.
