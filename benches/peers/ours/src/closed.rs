@@ -19,7 +19,6 @@ pub fn states(robot: &CStr) -> Vec<f64> {
         b"stewart" => STEWART.iter().flat_map(|all| numbers(&all.4)).collect(),
         b"delta" => DELTA.iter().flat_map(|all| numbers(&all.4)).collect(),
         b"biped" => BIPED.iter().flat_map(|all| numbers(&all.4)).collect(),
-        b"unit" => crate::unit::states(),
         _ => Vec::new(),
     }
 }

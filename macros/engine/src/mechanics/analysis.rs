@@ -115,6 +115,7 @@ fn analyse_in(model: &Model, writing: Writing) -> Result<Structure, Vec<Complain
     let problem = looped.then(|| Problem::written(model, writing));
     if let Some(problem) = &problem {
         analysis.run(problem, &mut structure);
+        analysis.check_held_drives(&structure);
     }
     if !analysis.complaints.is_empty() {
         return Err(analysis.complaints);

@@ -311,16 +311,21 @@ impl Across {
     /// Half the square of the distance, since it is the products that one half leaves without a factor.
     fn distance(&self, g: &mut Graph, far: Vector, near: Vector) -> Option<Form> {
         let half = g.decimal(0.5);
-        if matches!(self.motion, None | Some(Motion::Prismatic(_))) {
+        if self.motion.is_none() {
             let apart = g.sub_vectors(near, far);
             let square = g.dot(apart, apart);
-            let mut form = Form::constant(g.mul(half, square));
-            if let Some(Motion::Prismatic(axis)) = self.motion {
-                (form.travel, form.square) = (g.component(apart, axis), half);
-            }
-            return Some(form);
+            return Some(Form::constant(g.mul(half, square)));
         }
-        let squares = [g.dot(far, far), g.dot(near, near)].map(|s| g.mul(half, s));
+        if let Some(Motion::Prismatic(axis)) = self.motion {
+            let apart = g.sub_vectors(near, far);
+            let square = square(g, apart);
+            let one = g.mul(half, square);
+            return Some(Form { travel: g.component(apart, axis), square: half, ..Form::constant(one) });
+        }
+        let squares = [far, near].map(|v| {
+            let square = square(g, v);
+            g.mul(half, square)
+        });
         let together = Form::constant(g.sum(&squares));
         let product = self.turned(g, far, near);
         let mut form = together.sub(g, product);
@@ -384,6 +389,12 @@ impl Across {
         };
         same.then_some(())
     }
+}
+
+/// Of a vector of which components are asked for beside it: a product of vectors may be taken in other axes, and would need those there too.
+fn square(g: &mut Graph, v: Vector) -> Scalar {
+    let squares = g.components(v).map(|x| g.mul(x, x));
+    g.sum(&squares)
 }
 
 #[cfg(test)]

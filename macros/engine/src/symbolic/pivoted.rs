@@ -56,22 +56,21 @@ pub fn solve_pivoted(g: &mut Graph, matrix: &[Vec<Scalar>], sides: &[Vec<Scalar>
     (solutions, rank)
 }
 
-/// Brings the row with the largest entry in column k to place k.
+/// Brings the row with the largest entry in column k to place k: of pairs the larger one comes first, then of pairs of these. That takes
+/// as many comparisons as one row against all others, and few of them wait for each other.
 fn exchange(g: &mut Graph, rows: &mut [Vec<Scalar>], k: usize) {
-    let mut best = g.call(Call::Abs, &[rows[k][k]]);
-    for i in k + 1..rows.len() {
-        if rows[i][k] == Scalar::ZERO {
-            continue;
+    let mut left: Vec<usize> = (k..rows.len()).filter(|&i| i == k || rows[i][k] != Scalar::ZERO).collect();
+    while left.len() > 1 {
+        for pair in left.chunks_exact(2) {
+            let [a, b] = [pair[0], pair[1]].map(|i| g.call(Call::Abs, &[rows[i][k]]));
+            let larger = g.call(Call::Less, &[a, b]);
+            for column in k..rows[k].len() {
+                let [above, below] = [pair[0], pair[1]].map(|i| rows[i][column]);
+                rows[pair[0]][column] = g.call(Call::Select, &[larger, below, above]);
+                rows[pair[1]][column] = g.call(Call::Select, &[larger, above, below]);
+            }
         }
-        let size = g.call(Call::Abs, &[rows[i][k]]);
-        let larger = g.call(Call::Less, &[best, size]);
-        let (above, below) = rows.split_at_mut(i);
-        for (top, entry) in above[k].iter_mut().zip(&mut below[0]).skip(k) {
-            let (a, b) = (*top, *entry);
-            *top = g.call(Call::Select, &[larger, b, a]);
-            *entry = g.call(Call::Select, &[larger, a, b]);
-        }
-        best = g.call(Call::Abs, &[rows[k][k]]);
+        left = left.into_iter().step_by(2).collect();
     }
 }
 

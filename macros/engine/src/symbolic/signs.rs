@@ -84,6 +84,9 @@ fn sign(g: &Graph, s: Scalar, depth: usize) -> Option<bool> {
             }
             positive
         }
+        // A vector by itself is a sum of squares.
+        ScalarNode::Dot(a, b) if *a == *b => true,
+        ScalarNode::Dot(a, b) if *a == -*b => false,
         ScalarNode::Reciprocal(x) => of(*x)?,
         ScalarNode::Sqrt(_) | ScalarNode::Call(Call::Exp | Call::Cosh | Call::Abs, _) => true,
         ScalarNode::Call(Call::Select, list) => match list[..] {

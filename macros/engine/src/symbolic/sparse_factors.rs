@@ -387,11 +387,19 @@ impl Work<'_> {
 
     /// The row that gives the pivot, of those that compete.
     fn winner(&mut self, column: usize, rows: &[usize]) -> Option<usize> {
-        let (&first, others) = rows.split_first()?;
-        if let Some(best) = largest(self.g, &mut self.rows, column, rows) {
+        if let Some(best) = rows.first().and_then(|_| largest(self.g, &mut self.rows, column, rows)) {
             return Some(best);
         }
-        Some(others.iter().fold(first, |top, &row| self.compete(column, [top, row])))
+        // Pairs, then pairs of winners: as many comparisons as one row against all others, and few that wait for each other.
+        let mut left = rows.to_vec();
+        while left.len() > 1 {
+            let round = |pair: &[usize]| match *pair {
+                [a, b] => self.compete(column, [a, b]),
+                _ => pair[0],
+            };
+            left = left.chunks(2).map(round).collect();
+        }
+        left.first().copied()
     }
 
     /// Brings the row with the larger entry to the first place; that row.

@@ -290,6 +290,142 @@ fn loads_that_begin() {
     }
 }
 
+/// Steps that are smooth are as good as zero on one side of them.
+#[test]
+fn loads_that_begin_smoothly() {
+    let push = |amount: &str| format!("force push: Force {{ at: b, value: {amount}, axes: ground }}");
+    let read = "output load = two.reaction;";
+    for (declared, amount) in [
+        ("", "(1.0 + tanh((t - 15.0) / 0.1)) * Z"),
+        ("input u;", "1.0 / (1.0 + exp(-40.0 * (u - 1.0))) * Z"),
+        ("", "exp(t - 40.0) * Z"),
+        ("", "exp(one.rate - 90.0) * Z"),
+    ] {
+        let text = pushed("-9.81 * Y", "0.0", &format!("{declared} {} {read}", push(amount)));
+        let refused = try_case(&text).err().unwrap_or_else(|| panic!("{amount}"));
+        assert!(refused.contains("how loops share their load"), "{refused}");
+        let text = pushed("-9.81 * Y", "0.0", &format!("{declared} {} {read}", push(&amount.replace('Z', "Y"))));
+        assert!(try_case(&text).is_ok(), "{amount}");
+    }
+    for (course, axis) in [("0.05 * (1.0 + tanh((t - 15.0) / 0.3))", "Z"), ("0.1 * exp(t - 40.0)", "Z")] {
+        let lifted = |axis: &str, course: &str| {
+            let items = format!(
+                "body base {{ mass: 2.0, inertia: diag(0.5, 0.6, 0.7) }}
+                joint lift: Prismatic {{ parent: ground, child: base, axis: {axis} }} drive lift = {course}; {read}"
+            );
+            pushed("-9.81 * Y", "0.0", &items)
+                .replace("parent: ground, child: a", "parent: base, child: a")
+                .replace("parent: ground.at(1.6 * X)", "parent: base.at(1.6 * X)")
+        };
+        assert!(try_case(&lifted(axis, course)).is_err(), "{course}");
+        assert!(try_case(&lifted("Y", course)).is_ok(), "{course}");
+        assert!(try_case(&lifted(axis, "0.3 * t")).is_ok());
+    }
+}
+
+/// What is small beside gravity where inputs and parameters are about one may be all that counts elsewhere; and what is small is
+/// small beside what it is made of, in its own unit.
+#[test]
+fn loads_of_any_size() {
+    let push = |amount: &str| format!("input u; force push: Force {{ at: b, value: {amount}, axes: ground }}");
+    let read = "output load = two.reaction;";
+    for amount in ["u * 1e-6", "u * 1e-9", "powi(u, 20)", "1e-6 * b.position.y"] {
+        for (direction, is_fine) in [("Z", false), ("Y", true)] {
+            let text = pushed("-981.0 * Y", "0.0", &format!("{} {read}", push(&format!("{amount} * {direction}"))));
+            assert_eq!(try_case(&text).is_ok(), is_fine, "{amount} * {direction}");
+        }
+    }
+    // In an oblique plane too, where rounding is as large as some loads.
+    let [n, x, _] = typed();
+    for (direction, is_fine) in [(n, false), (x, true)] {
+        let items = format!("{} {}", push(&format!("u * 1e-7 * {direction:?}")).replace("at: b", "at: link"), ALL);
+        let text = bars(&typed(), FORMULATIONS[1], 0.0, &items);
+        assert_eq!(try_case(&text).is_ok(), is_fine, "{direction:?}");
+    }
+    let rotor = |axis: &str| {
+        let items = format!(
+            "body rotor {{ mass: 0.0, inertia: diag(1e-7, 1e-7, 1e-7) }}
+            joint spin: Revolute {{ parent: b, child: rotor, axis: {axis} }} {read}"
+        );
+        try_case(&pushed("-9.81 * Y", "0.0", &items)).is_ok()
+    };
+    assert!(!rotor("X"));
+    assert!(rotor("Z"));
+    let cargo = |at: &str| {
+        let items = format!(
+            "param cargo = 0.0; body crate_of {{ mass: cargo }} joint held: Fixed {{ parent: b.at({at}), child: crate_of }} {read}"
+        );
+        try_case(&pushed("-9.81 * Y", "0.0", &items).replace("mass: 1.0", "mass: 1.0e6")).is_ok()
+    };
+    assert!(!cargo("0.5 * Z"));
+    assert!(cargo("0.5 * Y"));
+    // Links of ten micrometres, with a centre of mass 50 nm off the plane.
+    let micro = |off: &str| {
+        let text = format!(
+            "world {{ gravity: -9.81 * Y }}
+            body a {{ mass: 1e-9, com: 5e-6 * X, inertia: rod(1e-9, 1e-5, X) }}
+            body b {{ mass: 1e-9, com: [5e-6, 1e-6, {off}], inertia: diag(2e-20, 3e-20, 4e-20) }}
+            body c {{ mass: 1e-9, com: 5e-6 * X, inertia: rod(1e-9, 1e-5, X) }}
+            joint one: Revolute {{ parent: ground, child: a, axis: Z }}
+            joint two: Revolute {{ parent: a.at(1e-5 * X), child: b, axis: Z }}
+            joint three: Revolute {{ parent: ground.at(1.6e-5 * X), child: c, axis: Z }}
+            #[cut] joint four: Revolute {{ parent: b.at(1e-5 * X), child: c.at(1e-5 * X), axis: Z }}
+            {read} emit forward_dynamics;"
+        );
+        try_case(&text).is_ok()
+    };
+    assert!(!micro("5e-8"));
+    assert!(micro("0.0"));
+}
+
+/// A plate that swings on parallel rods: three hold it, whichever, as long as it is level, and any four where it is not.
+#[test]
+fn the_declared_pose_is_looked_at() {
+    let text = |read: &str, ends: [[f64; 2]; 4]| {
+        let rods: String = [[0.5, 0.5], [-0.5, 0.5], [-0.5, -0.5], [0.5, -0.5]]
+            .iter()
+            .zip(ends)
+            .enumerate()
+            .map(|(k, ([x, y], [u, v]))| {
+                let length = ((x - u) * (x - u) + (y - v) * (y - v) + 1.0).sqrt();
+                format!(
+                    "constraint r{k}: Rod {{ between: [ground.at([{u:?}, {v:?}, 0.0]), plate.at([{x:?}, {y:?}, 0.0])], length: {length:?} }}\n"
+                )
+            })
+            .collect();
+        format!(
+            "world {{ gravity: -9.81 * Z }} formulation {{ constraints: Multipliers }}
+            body plate {{ mass: 2.0, com: [0.1, 0.05, 0.02], inertia: diag(0.2, 0.3, 0.4) }}
+            joint float: Free {{ parent: ground.at(-Z), child: plate, coordinates: RollPitchYaw }}
+            {rods} output read = {read}; emit forward_dynamics;"
+        )
+    };
+    let parallel = [[0.5, 0.5], [-0.5, 0.5], [-0.5, -0.5], [0.5, -0.5]];
+    for read in ["r0.multiplier", "r0.multiplier - r1.multiplier"] {
+        let refused = try_case(&text(read, parallel)).err().expect("refused");
+        assert!(refused.contains("where coordinates are declared to stand"), "{refused}");
+    }
+    assert!(try_case(&text("plate.position", parallel)).is_ok());
+    // What all four bear together is known.
+    let sum = "r0.multiplier + r1.multiplier + r2.multiplier + r3.multiplier";
+    assert!(try_case(&text(sum, parallel)).is_ok());
+    let spread = [[0.9, 0.7], [-0.8, 0.6], [-0.7, -0.9], [0.6, -0.75]];
+    assert!(try_case(&text("r0.multiplier", spread)).is_ok());
+}
+
+/// Of two drives that say the same nobody knows which one works.
+#[test]
+fn drives_that_say_the_same() {
+    let text = |drives: &str| {
+        on_parallel_bars(drives, "ja.effort")
+            .replace("#[cut]", "")
+            .replace("world", "formulation { coordinates: Absolute(Quaternion), constraints: Multipliers } world")
+    };
+    let refused = try_case(&text("drive ja.angle = 0.3 + t; drive jb.angle = 0.3 + t;")).err().expect("refused");
+    assert!(refused.contains("prescribes what follows from the loops and other drives: `jb`"), "{refused}");
+    assert!(try_case(&text("drive ja.angle = 0.3 + t;")).is_ok());
+}
+
 /// What an output makes of loads hides none, and nor does what is heavy beside the loop.
 #[test]
 fn whatever_is_made_of_loads() {
@@ -299,6 +435,8 @@ fn whatever_is_made_of_loads() {
         "max(norm(two.reaction.force) - 1e5, 0.0)",
         "two.reaction.force.z / 1e13",
         "select(two.reaction.force.z > 1e6, 1.0, 0.0)",
+        "1e13 + two.reaction.force.z",
+        "tanh(1e6 * two.reaction.force.z)",
     ] {
         let text = pushed(across, "0.0", &format!("output read = {read};"));
         assert!(try_case(&text).err().is_some_and(|said| said.contains("share their load")), "{read}");

@@ -9,7 +9,7 @@ use crate::mechanics::loops::constraints::{coordinate_name, path, row_name};
 use crate::mechanics::loops::structure::{Role, Structure};
 use crate::mechanics::translate::symbols::has_quaternion;
 use crate::model::site::{Site, Sited};
-use crate::model::types::{JointId, LoopClosure, Model};
+use crate::model::types::{Constraint, JointId, LoopClosure, Model};
 
 use super::configurations::{Effort, Found, configurations};
 use super::measure::Gap;
@@ -188,6 +188,24 @@ impl Analysis<'_> {
             }
         }
         true
+    }
+
+    /// The same of drives of measured coordinates, which are equations beside those of the loops: two that say the same would share an effort.
+    pub(super) fn check_held_drives(&mut self, structure: &Structure) {
+        let mut needless: Vec<&Constraint> = Vec::new();
+        for row in structure.dropped.iter().chain(&structure.wavering) {
+            let LoopClosure::Constraint(id) = row.closing else { continue };
+            let constraint = &self.model.constraints[id];
+            if constraint.drive.is_some() && !needless.iter().any(|other| other.drive == constraint.drive) {
+                needless.push(constraint);
+            }
+        }
+        for constraint in needless {
+            let Some(coordinate) = constraint.drive else { continue };
+            let name = coordinate_name(self.model, coordinate);
+            let message = format!("the drive prescribes what follows from the loops and other drives: `{name}`");
+            self.complain(constraint.site(), message, Some("drive as many coordinates as the mechanism has freedoms"));
+        }
     }
 
     /// Position and orientation of a joint with a quaternion are in the state as a whole or not at all.

@@ -172,16 +172,19 @@ pub(super) fn configurations(problem: &Problem, equations: &[usize], columns: &[
     found
 }
 
-/// The declared pose, if it is closed up to what typed numbers leave, and of the rank that the samples have.
-pub(super) fn home(problem: &Problem, equations: &[usize], columns: &[usize], found: &Found) -> Option<Configuration> {
-    let search = Search::new(problem, equations, columns);
-    let (declared, mut values) = (problem.origin(), Values::default());
+/// The declared pose, if these equations are closed there up to what typed numbers leave.
+pub(super) fn declared(problem: &Problem, search: &Search<'_>) -> Option<Point> {
+    let declared = problem.origin();
     let mut point = declared.clone();
     let moved = |point: &Point| point.0.iter().zip(&declared.0).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
-    if !search.close(&mut point, &mut values) || moved(&point) > TYPED {
-        return None;
-    }
-    let at = problem.linearise(&point, equations, &mut values);
+    (search.close(&mut point, &mut Values::default()) && moved(&point) <= TYPED).then_some(point)
+}
+
+/// The declared pose, if it is closed and of the rank that the samples have.
+pub(super) fn home(problem: &Problem, equations: &[usize], columns: &[usize], found: &Found) -> Option<Configuration> {
+    let search = Search::new(problem, equations, columns);
+    let point = declared(problem, &search)?;
+    let at = problem.linearise(&point, equations, &mut Values::default());
     let home = search.configuration(point, &at, true);
     let rank = found.configurations.iter().filter_map(|configuration| configuration.rank).max();
     (home.rank.is_some() && home.rank >= rank).then_some(home)

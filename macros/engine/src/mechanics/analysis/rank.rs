@@ -45,6 +45,10 @@ impl Basis {
     pub(super) fn len(&self) -> usize {
         self.vectors.len()
     }
+
+    pub(super) fn vectors(&self) -> &[Vec<f64>] {
+        &self.vectors
+    }
 }
 
 /// Whether each row is kept, in the given order. Rows are unit or zero.

@@ -40,8 +40,8 @@ fn dependent(rows: &[Vec<f64>]) -> Vec<bool> {
     depends
 }
 
-/// Unit rows, or zero.
-fn all(problem: &Problem, structure: &Structure, point: &Point) -> (Vec<Row>, Vec<Vec<f64>>) {
+/// Unit rows, or zero, of all equations of positions and velocities.
+pub(super) fn all(problem: &Problem, structure: &Structure, point: &Point) -> (Vec<Row>, Vec<Vec<f64>>) {
     let of_positions: Vec<(usize, Row)> = (0..problem.equations.len())
         .filter_map(|k| match problem.equations[k].source {
             Source::Row(row) => Some((k, row)),

@@ -38,6 +38,8 @@ use super::tape::{Tape, Values};
 /// What is looked at, as programs for numbers.
 pub(super) struct Statics {
     tape: Tape,
+    /// The same for velocities and accelerations of drives: any will do, and these may be zero for long.
+    courses: Tape,
     rows: Vec<Row>,
     /// Places of rows that were not left out.
     kept: Vec<usize>,
@@ -73,6 +75,25 @@ pub(super) struct Sample {
     /// Self-stress by row, each with wrenches about as great as those of the loads.
     pub stress: Vec<Vec<f64>>,
 }
+
+/// What counts more than all else in a sample, by this much: loads that are small beside others where inputs and parameters are about one may be all that
+/// counts where these are not.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Emphasis {
+    None,
+    /// One in so many inputs, states, parameters and the time, from this number on.
+    Share {
+        first: usize,
+        of: usize,
+    },
+    Velocities,
+    /// Nothing moves: at a pose where motions cross, not all velocities that its equations allow can be.
+    Rest,
+}
+
+/// Of inputs and the like, and of velocities, which count twice.
+const EMPHASIS: f64 = 1e6;
+const FAST: f64 = 1e3;
 
 /// Force and moment by joint.
 pub(super) type Wrenches = Vec<[[f64; 3]; 2]>;
@@ -144,7 +165,8 @@ impl Statics {
         let lowered = lowering.run(&roots.0);
         let exact = rates.clone().chain(second.clone()).chain(courses_of(&driven)).collect::<Vec<usize>>();
         let whole = Tape::new(&lowering.to, &lowered);
-        let tape = if blends { whole.blended(exact.into_iter()) } else { whole };
+        let [tape, courses] = [exact, Vec::new()]
+            .map(|exact| if blends { whole.clone().blended(exact.into_iter()) } else { whole.clone() });
         let closing: HashSet<usize> = rates.clone().chain(second.clone()).flat_map(|root| tape.symbols(root)).collect();
         let of_drives: HashSet<usize> = courses_of(&driven).flat_map(|root| tape.symbols(root)).collect();
         let is_moved = |&k: &usize| match symbols.table[k] {
@@ -164,6 +186,7 @@ impl Statics {
             positions: (0..symbols.table.len()).filter(is_position).collect(),
             free_time,
             tape,
+            courses,
             rows,
             driven,
             efforts,
@@ -179,8 +202,19 @@ impl Statics {
         &self.rows
     }
 
+    /// How many inputs, states and parameters are not at their defaults, and the time if it is free.
+    pub(super) fn moved(&self) -> usize {
+        self.moved.len() + usize::from(self.free_time.is_some())
+    }
+
     /// At a closed pose; nothing where the mechanism allows no velocities there, or something has no number.
-    pub(super) fn sample(&mut self, problem: &Problem, point: &Point, random: &mut Random) -> Option<Sample> {
+    pub(super) fn sample(
+        &mut self,
+        problem: &Problem,
+        point: &Point,
+        emphasis: Emphasis,
+        random: &mut Random,
+    ) -> Option<Sample> {
         let mut at = point.0.clone();
         let count = self.multipliers.iter().max().map_or(0, |most| most + 1).max(at.len());
         at.resize(count, 0.0);
@@ -190,12 +224,27 @@ impl Statics {
         if let Some(time) = self.free_time {
             at[time] = LATE * random.next().abs();
         }
-        self.tape.run_for(&mut self.values, &at, self.driven.iter().map(|one| one.1));
-        for &(symbol, root) in &self.driven {
-            at[symbol] = self.tape.value(&self.values, root);
+        if let Emphasis::Share { first, of } = emphasis {
+            let all = self.moved.iter().copied().chain(self.free_time);
+            all.skip(first).step_by(of).for_each(|symbol| at[symbol] *= EMPHASIS);
+        }
+        let is_place = |symbol: usize| self.positions.contains(&symbol);
+        for (tape, of_places) in [(&self.tape, true), (&self.courses, false)] {
+            tape.run_for(&mut self.values, &at, self.driven.iter().map(|one| one.1));
+            for &(symbol, root) in self.driven.iter().filter(|one| is_place(one.0) == of_places) {
+                at[symbol] = tape.value(&self.values, root);
+            }
         }
         self.velocities.iter().for_each(|&symbol| at[symbol] = random.next());
-        self.move_along(&mut at)?;
+        match emphasis {
+            Emphasis::Rest => self.velocities.iter().for_each(|&symbol| at[symbol] = 0.0),
+            Emphasis::Velocities => {
+                self.move_along(&mut at)?;
+                self.velocities.iter().for_each(|&symbol| at[symbol] *= FAST);
+                self.move_along(&mut at)?;
+            }
+            _ => self.move_along(&mut at)?,
+        }
         let columns: Vec<usize> = self.accelerations.iter().chain(&self.multipliers).copied().collect();
         let forces = self.linear(&at, self.efforts.clone(), &columns);
         let closings = self.linear(&at, self.second.clone(), &columns);
@@ -308,20 +357,46 @@ impl Statics {
         list.chunks(6).map(|w| [[w[0], w[1], w[2]], [w[3], w[4], w[5]]]).collect()
     }
 
-    /// An output's scalars under some multipliers.
-    pub(super) fn output(&mut self, sample: &Sample, multipliers: &[f64], output: usize) -> Vec<f64> {
-        self.run(sample, multipliers, self.outputs[output].clone())
+    /// The same as what it is made of, with nothing cancelled.
+    pub(super) fn wrench_bounds(&mut self, sample: &Sample, multipliers: &[f64]) -> Wrenches {
+        self.run(sample, multipliers, self.wrenches.clone());
+        let bounds: Vec<f64> = self.wrenches.clone().map(|root| self.tape.size_bound(&self.values, root)).collect();
+        bounds.chunks(6).map(|w| [[w[0], w[1], w[2]], [w[3], w[4], w[5]]]).collect()
     }
 
-    /// What changes of an output's scalars are made of, if multipliers change by so much, with nothing cancelled: where the sample is, and
-    /// where nothing is closed.
-    pub(super) fn bounds(&mut self, sample: &Sample, step: &[f64], output: usize) -> [Vec<f64>; 2] {
+    /// How fast an output's scalars change where multipliers stand, as these change by a step.
+    pub(super) fn changes(&mut self, sample: &Sample, multipliers: &[f64], step: &[f64], output: usize) -> Vec<f64> {
+        let roots = self.outputs[output].clone();
+        self.run(sample, multipliers, roots.clone());
+        let mut steps = vec![0.0; sample.at.len()];
+        self.multipliers.iter().zip(step).for_each(|(&symbol, &step)| steps[symbol] = step);
+        let mut change = |root| {
+            let mut sum = 0.0;
+            self.tape.gradient(&mut self.values, root, |symbol, slope| {
+                // What does not change has no part in it, whatever its slope.
+                if let Some(step) = steps.get(symbol).filter(|step| **step != 0.0) {
+                    sum += slope * step;
+                }
+            });
+            sum
+        };
+        roots.map(&mut change).collect()
+    }
+
+    /// What these changes are made of, with nothing cancelled: where the sample is, and where nothing is closed.
+    pub(super) fn bounds(
+        &mut self,
+        sample: &Sample,
+        multipliers: &[f64],
+        step: &[f64],
+        output: usize,
+    ) -> [Vec<f64>; 2] {
         let roots = self.outputs[output].clone();
         let mut units = vec![0.0; sample.at.len()];
-        self.multipliers.iter().zip(step).for_each(|(&symbol, &step)| units[symbol] = step);
+        self.multipliers.iter().zip(step).for_each(|(&symbol, &step)| units[symbol] = step.abs());
         [&sample.at, &sample.anywhere].map(|at| {
             let mut at = at.clone();
-            self.multipliers.iter().zip(&sample.multipliers[0]).for_each(|(&symbol, &x)| at[symbol] = x);
+            self.multipliers.iter().zip(multipliers).for_each(|(&symbol, &x)| at[symbol] = x);
             self.tape.run_for(&mut self.values, &at, roots.clone());
             let bound = |root| self.tape.slope_bound(&self.values, root, |symbol| units[symbol]);
             roots.clone().map(bound).map(|bound| if bound.is_finite() { bound } else { 0.0 }).collect()

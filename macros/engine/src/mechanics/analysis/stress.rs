@@ -19,14 +19,14 @@ use crate::mechanics::translate::manipulations::holds;
 use crate::model::site::{Site, Sited};
 use crate::model::types::{ConstraintId, Expr, ExprNode, JointId, LoopClosure, Model, Output};
 
-use super::Complaint;
-use super::configurations::Search;
+use super::configurations::{self, Search};
 use super::problem::{Point, Problem, Random};
-use super::rank::Basis;
+use super::rank::{self, Basis};
 use super::rates::{LATE, OFF};
 use super::singular::add;
-use super::statics::{Sample, Statics, Wrenches, difference, greatest};
+use super::statics::{Emphasis, Sample, Statics, Wrenches, difference, greatest};
 use super::tape::Values;
+use super::{Complaint, shared};
 
 /// As many closed poses are looked at, and as many of mechanisms with more freedoms and equations than `LARGE`.
 const POSES: usize = 4;
@@ -36,8 +36,10 @@ const LARGE: usize = 100;
 const AMPLITUDES: [f64; 8] = [0.1, 0.1, 0.2, 0.2, 0.4, 0.4, 0.8, 0.8];
 /// Beside all terms that a change is made of, and beside the greatest load.
 const NOTHING: f64 = 1e-7;
-/// Of a value that is made of much else.
+/// Beside what all loads are made of.
 const DIGITS: f64 = 1e-11;
+/// In so many parts inputs, states and parameters count more than all else, one part after the other.
+const SHARES: usize = 24;
 /// Beside all terms that a change would be made of where nothing is closed.
 const ROUNDING: f64 = 1e-9;
 
@@ -48,9 +50,17 @@ struct Open {
     rows: Vec<Row>,
 }
 
+/// What an output makes of self-stress.
+enum Verdict {
+    /// No self-stress changes it.
+    Determined,
+    /// Some does, and none is there.
+    Unstressed,
+    Open(Open),
+}
+
 /// Outputs that read reactions or multipliers, where equations may depend on each other.
 fn asked<'m>(model: &'m Model, structure: &Structure) -> Vec<&'m Output> {
-    let certain = structure.dropped.is_empty() && structure.wavering.is_empty() && !structure.redundant;
     let reads = |output: &&Output| {
         let needs = Dependencies::of(std::iter::once(&output.value));
         needs.multipliers || !needs.reactions().is_empty()
@@ -61,40 +71,75 @@ fn asked<'m>(model: &'m Model, structure: &Structure) -> Vec<&'m Output> {
             |row: &Row| matches!(row.closing, LoopClosure::Constraint(id) if reads_multiplier(&output.value, id));
         structure.shared.iter().any(shared)
     };
-    if certain { Vec::new() } else { model.outputs.iter().filter(|one| reads(one) && !is_told(one)).collect() }
+    model.outputs.iter().filter(|one| reads(one) && !is_told(one)).collect()
 }
 
 /// Outputs that the mechanism doesn't determine, with loops in the axes of `writing`.
 pub(super) fn complaints(model: &Model, structure: &Structure, writing: Writing) -> Vec<Complaint> {
     let outputs = asked(model, structure);
-    if outputs.is_empty() {
+    if outputs.is_empty() || model.cuts.is_empty() && model.constraints.is_empty() {
         return Vec::new();
     }
     let problem = Problem::written(model, writing);
-    let poses = poses(model, &problem, structure);
-    let sampled = |blends: bool| {
-        let mut statics = Statics::new(model, structure, writing, &outputs, blends);
-        let mut random = Random(0x57E55);
-        let samples: Vec<Sample> =
-            poses.iter().filter_map(|point| statics.sample(&problem, point, &mut random)).collect();
-        (statics, samples)
-    };
-    let (mut statics, mut samples) = sampled(true);
-    if samples.is_empty() {
-        // The root of a blend may have no value.
-        (statics, samples) = sampled(false);
+    let certain = structure.dropped.is_empty() && structure.wavering.is_empty() && !structure.redundant;
+    let declared = declared(&problem).filter(|point| is_singular(&problem, structure, point));
+    if certain && declared.is_none() {
+        return Vec::new();
     }
-    let mut found = Vec::new();
-    for (number, output) in outputs.iter().enumerate() {
-        let open = match samples.is_empty() {
-            // Nothing is known of it.
-            true => Some(Open::default()),
-            false => samples
-                .iter()
-                .filter(|sample| is_typical(sample, &samples))
-                .find_map(|sample| statics.open(sample, number)),
-        };
-        found.extend(open.map(|open| complaint(model, structure, output, &open)));
+    let mut samples = Samples::new(model, structure, writing, &outputs, &problem);
+    let here = declared.and_then(|point| samples.at(&point, Emphasis::Rest));
+    let of_declared = |number| Some((samples.verdict(here.as_ref()?, number).open()?, true));
+    let mut found: Vec<Option<(Open, bool)>> = (0..outputs.len()).map(of_declared).collect();
+    if !certain {
+        let poses = poses(model, &problem, structure);
+        let also = judged(&mut samples, &poses, outputs.len());
+        found.iter_mut().zip(also).for_each(|(slot, open)| *slot = slot.take().or(open.map(|open| (open, false))));
+    }
+    let told = outputs.iter().zip(found);
+    told.filter_map(|(output, open)| open.map(|(open, here)| complaint(model, structure, output, &open, here)))
+        .collect()
+}
+
+/// What is open of each output at any of these poses.
+fn judged(samples: &mut Samples<'_>, poses: &[Point], outputs: usize) -> Vec<Option<Open>> {
+    let seen = poses.iter().filter_map(|point| Some((point, samples.at(point, Emphasis::None)?)));
+    let all: Vec<(&Point, Seen)> = seen.collect();
+    if all.is_empty() {
+        // Nothing is known of any.
+        return (0..outputs).map(|_| Some(Open::default())).collect();
+    }
+    let counts: Vec<usize> = all.iter().map(|(_, seen)| seen.sample.stress.len()).collect();
+    let typical: Vec<&(&Point, Seen)> =
+        all.iter().zip(&counts).filter(|one| is_typical(*one.1, &counts)).map(|one| one.0).collect();
+    let mut rests_on_zero = Vec::new();
+    let mut found: Vec<Option<Open>> = (0..outputs).map(|_| None).collect();
+    for (number, slot) in found.iter_mut().enumerate() {
+        for (_, seen) in &typical {
+            match samples.verdict(seen, number) {
+                Verdict::Determined => {}
+                Verdict::Unstressed => rests_on_zero.push(number),
+                Verdict::Open(open) => {
+                    *slot = Some(open);
+                    break;
+                }
+            }
+        }
+    }
+    rests_on_zero.retain(|&number| found[number].is_none());
+    rests_on_zero.dedup();
+    if rests_on_zero.is_empty() {
+        return found;
+    }
+    // What is zero there may be small alone.
+    let of = samples.moved().min(SHARES);
+    let shares = (0..of).map(|first| Emphasis::Share { first, of });
+    for (emphasis, (point, _)) in shares.chain([Emphasis::Velocities]).zip(typical.iter().cycle()) {
+        let Some(seen) = samples.at(point, emphasis) else { continue };
+        for &number in &rests_on_zero {
+            if found[number].is_none() {
+                found[number] = samples.verdict(&seen, number).open();
+            }
+        }
     }
     found
 }
@@ -119,6 +164,25 @@ fn poses(model: &Model, problem: &Problem, structure: &Structure) -> Vec<Point> 
     poses
 }
 
+/// The pose that is declared, where it closes all loops.
+fn declared(problem: &Problem) -> Option<Point> {
+    let equations: Vec<usize> = (0..problem.equations.len()).collect();
+    let columns: Vec<usize> = (0..problem.columns.len()).collect();
+    let driven = problem.driven_columns();
+    configurations::declared(problem, &Search::new(problem, &equations, &columns).holding(&driven))
+}
+
+/// Whether equations that don't follow from others elsewhere do so at a pose.
+fn is_singular(problem: &Problem, structure: &Structure, point: &Point) -> bool {
+    let kept = |row: &Row| !structure.dropped.contains(row);
+    rank_at(problem, structure, point) < shared::all(problem, structure, point).0.iter().filter(|row| kept(row)).count()
+}
+
+fn rank_at(problem: &Problem, structure: &Structure, point: &Point) -> usize {
+    let rows = shared::all(problem, structure, point).1;
+    rank::of(&rows, &(0..rows.len()).collect::<Vec<usize>>())
+}
+
 fn further_poses(problem: &Problem, amplitudes: &[f64]) -> Vec<Point> {
     let equations: Vec<usize> = (0..problem.equations.len()).collect();
     let columns: Vec<usize> = (0..problem.columns.len()).collect();
@@ -138,33 +202,84 @@ fn further_poses(problem: &Problem, amplitudes: &[f64]) -> Vec<Point> {
 }
 
 /// A pose where all stands in line has self-stress that others don't have.
-fn is_typical(sample: &Sample, all: &[Sample]) -> bool {
-    let count = |sample: &Sample| sample.stress.len();
-    let least = all.iter().map(count).min().unwrap_or(0);
-    count(sample) == least || all.iter().filter(|other| count(other) == count(sample)).count() > 1
+fn is_typical(count: usize, all: &[usize]) -> bool {
+    all.iter().min() == Some(&count) || all.iter().filter(|&&other| other == count).count() > 1
+}
+
+/// A sample, and which of the programs it came of.
+struct Seen {
+    sample: Sample,
+    is_blended: bool,
+}
+
+/// Looks at poses: with blends of pieces, and with pieces as they are where the root of a blend has no value.
+struct Samples<'a> {
+    blended: Statics,
+    plain: Option<Statics>,
+    model: &'a Model,
+    structure: &'a Structure,
+    writing: Writing,
+    outputs: &'a [&'a Output],
+    problem: &'a Problem,
+    random: Random,
+}
+
+impl<'a> Samples<'a> {
+    fn new(
+        model: &'a Model,
+        structure: &'a Structure,
+        writing: Writing,
+        outputs: &'a [&'a Output],
+        problem: &'a Problem,
+    ) -> Samples<'a> {
+        let blended = Statics::new(model, structure, writing, outputs, true);
+        Samples { blended, plain: None, model, structure, writing, outputs, problem, random: Random(0x57E55) }
+    }
+
+    fn moved(&self) -> usize {
+        self.blended.moved()
+    }
+
+    fn at(&mut self, point: &Point, emphasis: Emphasis) -> Option<Seen> {
+        if let Some(sample) = self.blended.sample(self.problem, point, emphasis, &mut self.random) {
+            return Some(Seen { sample, is_blended: true });
+        }
+        let plain = self
+            .plain
+            .get_or_insert_with(|| Statics::new(self.model, self.structure, self.writing, self.outputs, false));
+        let sample = plain.sample(self.problem, point, emphasis, &mut self.random)?;
+        Some(Seen { sample, is_blended: false })
+    }
+
+    fn verdict(&mut self, seen: &Seen, output: usize) -> Verdict {
+        let statics = if seen.is_blended { Some(&mut self.blended) } else { self.plain.as_mut() };
+        statics.map_or(Verdict::Determined, |statics| statics.verdict(&seen.sample, output))
+    }
+}
+
+impl Verdict {
+    fn open(self) -> Option<Open> {
+        if let Verdict::Open(open) = self { Some(open) } else { None }
+    }
 }
 
 impl Statics {
-    /// Self-stress that an output depends on, if there is any and it is not zero in truth.
-    fn open(&mut self, sample: &Sample, output: usize) -> Option<Open> {
+    fn verdict(&mut self, sample: &Sample, output: usize) -> Verdict {
         let multipliers = &sample.multipliers[0];
-        let loads = self.wrenches(sample, multipliers);
         let with = |stress: &[f64]| multipliers.iter().zip(stress).map(|(a, b)| a + b).collect::<Vec<f64>>();
-        let all: Vec<usize> = (0..sample.stress.len()).collect();
-        let moves = |statics: &mut Statics, &k: &usize| statics.is_moved(sample, &with(&sample.stress[k]), output);
-        let mut open: Vec<usize> = all.iter().copied().filter(|k| moves(self, k)).collect();
-        if open.is_empty() && all.len() > 1 {
-            // A product of loads may be moved by no one stress alone.
-            let mut sum = vec![0.0; multipliers.len()];
-            for (k, stress) in sample.stress.iter().enumerate() {
-                add(&mut sum, 0.4 + (0.618_033_988_749_895 * k as f64).fract(), stress);
-            }
-            if self.is_moved(sample, &with(&sum), output) {
-                open = all;
-            }
+        // With some of all self-stress, so that a product of loads is moved by any one of them.
+        let mut some = multipliers.clone();
+        for (k, stress) in sample.stress.iter().enumerate() {
+            add(&mut some, 0.4 + (0.618_033_988_749_895 * k as f64).fract(), stress);
         }
+        let open: Vec<&Vec<f64>> =
+            sample.stress.iter().filter(|stress| self.is_moved(sample, &some, stress, output)).collect();
+        if open.is_empty() {
+            return Verdict::Determined;
+        }
+        let loads = self.wrenches(sample, multipliers);
         let mut stresses: Vec<(&Vec<f64>, Wrenches)> = Vec::new();
-        for stress in open.into_iter().map(|k| &sample.stress[k]) {
+        for stress in open {
             stresses.push((stress, difference(&self.wrenches(sample, &with(stress)), &loads)));
         }
         let touched = |(_, wrenches): &(&Vec<f64>, Wrenches)| {
@@ -175,27 +290,28 @@ impl Statics {
         let joints: HashSet<usize> = stresses.iter().flat_map(touched).collect();
         let is_zero = |multipliers: &Vec<f64>| {
             let loads = self.wrenches(sample, multipliers);
+            let bounds = self.wrench_bounds(sample, multipliers);
             // Of what the stress is in: what hangs elsewhere may weigh more.
             let most = greatest(&joints.iter().filter_map(|&joint| loads.get(joint).copied()).collect());
-            stands_across(&loads, &stresses, most) && self.bears_nothing(multipliers, &stresses, most)
+            stand_across(&loads, &bounds, &stresses) && self.bears_nothing(multipliers, &stresses, most)
         };
-        let is_open = !stresses.is_empty() && !sample.multipliers.iter().all(is_zero);
-        is_open.then(|| Open { rows: strained(&stresses).into_iter().map(|k| self.rows()[k]).collect(), joints })
+        if sample.multipliers.iter().all(is_zero) {
+            return Verdict::Unstressed;
+        }
+        Verdict::Open(Open { rows: strained(&stresses).into_iter().map(|k| self.rows()[k]).collect(), joints })
     }
 
-    /// Whether an output has another value with other multipliers, beyond roundings of what it is made of.
-    fn is_moved(&mut self, sample: &Sample, others: &[f64], output: usize) -> bool {
-        let multipliers = &sample.multipliers[0];
-        let (own, other) = (self.output(sample, multipliers, output), self.output(sample, others, output));
-        let step: Vec<f64> = multipliers.iter().zip(others).map(|(a, b)| (a - b).abs()).collect();
+    /// Whether self-stress changes an output, beyond roundings of what the change is made of.
+    fn is_moved(&mut self, sample: &Sample, multipliers: &[f64], stress: &[f64], output: usize) -> bool {
+        let changes = self.changes(sample, multipliers, stress, output);
         // What is zero at a closed pose, as an axis across an axis, is rounding beside what it is elsewhere.
-        let [here, anywhere] = self.bounds(sample, &step, output);
-        let least = here.iter().zip(anywhere).map(|(here, anywhere)| NOTHING * here + ROUNDING * anywhere);
+        let [here, anywhere] = self.bounds(sample, multipliers, stress, output);
+        // What all multipliers make of it, beside which self-stress is known to so many digits.
+        let [whole, _] = self.bounds(sample, multipliers, multipliers, output);
+        let least = here.iter().zip(anywhere).zip(whole);
+        let least = least.map(|((here, anywhere), whole)| NOTHING * here + ROUNDING * anywhere + DIGITS * whole);
         // What has no number tells nothing.
-        let differs = |((a, b), least): ((&f64, &f64), f64)| {
-            (a - b).is_nan() || (a - b).abs() > least + DIGITS * a.abs().max(b.abs())
-        };
-        own.iter().zip(&other).zip(least).any(differs)
+        changes.iter().zip(least).any(|(change, least)| change.is_nan() || change.abs() > least)
     }
 
     /// Whether constraints that hold by no joint, such as rods, bear none of the loads where self-stress has a part of them.
@@ -217,23 +333,29 @@ fn strained(stresses: &[(&Vec<f64>, Wrenches)]) -> Vec<usize> {
     (0..count).filter(|&k| stresses.iter().any(|(stress, _)| takes_part(stress, k))).collect()
 }
 
-/// Whether at each joint force and moment have no part along any of self-stress.
-fn stands_across(loads: &Wrenches, stresses: &[(&Vec<f64>, Wrenches)], most: f64) -> bool {
-    let strained = stresses.iter().map(|one| greatest(&one.1)).fold(0.0, f64::max);
-    (0..loads.len()).all(|joint| {
-        (0..2).all(|part| {
+/// Whether at each joint force and moment have no part along any of self-stress, beside what they are made of with nothing cancelled.
+fn stand_across(loads: &Wrenches, bounds: &Wrenches, stresses: &[(&Vec<f64>, Wrenches)]) -> bool {
+    // Forces and moments have units of their own.
+    [0, 1].into_iter().all(|part| {
+        let most = |wrenches: &Wrenches| wrenches.iter().flat_map(|w| w[part]).fold(0.0_f64, f64::max);
+        let strained = stresses.iter().map(|one| greatest(&one.1)).fold(0.0, f64::max);
+        let rounding = DIGITS * most(bounds);
+        loads.iter().zip(bounds).enumerate().all(|(joint, (load, bound))| {
             let mut basis = Basis::default();
             for (_, wrenches) in stresses {
                 basis.grow(&wrenches[joint][part], NOTHING * strained);
             }
-            let load = loads[joint][part];
-            let across = basis.rest(&load);
-            load.iter().zip(across).all(|(whole, across)| (whole - across).abs() <= NOTHING * most)
+            basis.vectors().iter().all(|direction| {
+                let along: f64 = direction.iter().zip(load[part]).map(|(d, x)| d * x).sum();
+                let made_of: f64 = direction.iter().zip(bound[part]).map(|(d, x)| d.abs() * x).sum();
+                along.abs() <= NOTHING * made_of + rounding
+            })
         })
     })
 }
 
-fn complaint(model: &Model, structure: &Structure, output: &Output, open: &Open) -> Complaint {
+/// Of what is open in any pose, or in the declared one.
+fn complaint(model: &Model, structure: &Structure, output: &Output, open: &Open, declared: bool) -> Complaint {
     let (joint, at) = first_read(&output.value, &open.joints).unwrap_or_else(|| (None, output.value.site()));
     let what = match joint {
         Some(joint) => format!("a reaction of `{}`", closing_name(model, LoopClosure::Cut(joint))),
@@ -242,6 +364,10 @@ fn complaint(model: &Model, structure: &Structure, output: &Output, open: &Open)
     let dropped = structure.dropped.iter().filter(|row| open.rows.contains(row));
     let rows: Vec<String> = dropped.map(|row| format!("`{}`", row_name(model, row.closing, row.index))).collect();
     let why = match rows.is_empty() {
+        _ if declared => {
+            "where coordinates are declared to stand, more equations of loops depend on each other than elsewhere"
+                .to_owned()
+        }
         true => "equations of loops depend on each other".to_owned(),
         false => format!("{} follow{} from other equations", rows.join(", "), if rows.len() == 1 { "s" } else { "" }),
     };

@@ -22,7 +22,7 @@ enum Op {
     Blend(f64),
     /// The first operand less the second.
     Apart,
-    /// So much of the operand.
+    /// So much of the first operand, less of each further one.
     Part(f64),
     /// What has no number here.
     Unknown,
@@ -47,6 +47,7 @@ struct Edge {
 const MASK: f64 = 0.1;
 
 /// A straight-line program for numbers.
+#[derive(Clone)]
 pub(super) struct Tape {
     nodes: Vec<Node>,
     operands: Vec<Edge>,
@@ -120,8 +121,9 @@ impl Tape {
         tape
     }
 
-    /// The same with some of each piece in place of one of them, whatever would choose: what acts beyond a stop acts a little. What some
-    /// `exact` roots need stays.
+    /// The same with some of each piece in place of one of them, whatever would choose: what acts beyond a stop acts a little. Functions that
+    /// are flat somewhere (`tanh`, `exp`), and those of the user's own, become parts of their arguments: a step that is smooth is as good as zero on
+    /// one side of it. What some `exact` roots need stays.
     pub(super) fn blended(mut self, exact: impl Iterator<Item = usize>) -> Tape {
         let mut stays = vec![false; self.nodes.len()];
         for root in exact {
@@ -137,6 +139,9 @@ impl Tape {
             node.op = match call {
                 Call::Min | Call::Max | Call::Select => Op::Blend(share),
                 Call::Abs | Call::Signum => Op::Part(share),
+                Call::External(_) if node.first < node.last => Op::Part(share),
+                Call::Exp | Call::Ln | Call::Powf | Call::Sinh | Call::Cosh | Call::Tanh => Op::Part(share),
+                Call::Asin | Call::Acos | Call::Atan | Call::Atan2 => Op::Part(share),
                 Call::And | Call::Or | Call::Not => Op::Sum,
                 Call::Less | Call::LessEqual | Call::Equal => Op::Apart,
                 _ => node.op,
@@ -243,7 +248,7 @@ impl Tape {
                 let share = share + before.iter().map(|mask| MASK * operand(list, mask)).sum::<f64>();
                 share * operand(list, a) + (1.0 - share) * operand(list, b)
             }
-            Op::Part(share) => share * operand(list, &operands[0]),
+            Op::Part(share) => operands.iter().zip(parts(share)).map(|(edge, part)| part * operand(list, edge)).sum(),
             Op::Apart => operand(list, &operands[0]) - operands.get(1).map_or(f64::NAN, |edge| operand(list, edge)),
             Op::Call(call) => {
                 let mut x = [0.0; 3];
@@ -323,8 +328,8 @@ impl Tape {
                     }
                 }
                 Op::Part(share) => {
-                    if let Some(edge) = operands.first() {
-                        slopes[edge.node] += edge.sign * slope * share;
+                    for (edge, part) in operands.iter().zip(parts(share)) {
+                        slopes[edge.node] += edge.sign * slope * part;
                     }
                 }
                 Op::Apart => {
@@ -347,29 +352,9 @@ impl Tape {
     /// `unit`, of all products along all ways with nothing cancelled, sines and cosines taken as one. Some roundings of it
     /// bound the error of the slopes (Higham 2002, chapter 3).
     pub(super) fn slope_bound(&self, values: &Values, root: usize, unit: impl Fn(usize) -> f64) -> f64 {
+        let sizes = self.sizes(values, root);
         let values = &values.values;
         let (edge, needs) = (&self.roots[root], &self.needs[root]);
-        let mut sizes = vec![0.0_f64; edge.node + 1];
-        for &index in needs {
-            let node = &self.nodes[index];
-            let operands = &self.operands[node.first..node.last];
-            let size = |k: usize| sizes[operands[k].node];
-            sizes[index] = match node.op {
-                Op::Literal(_) | Op::Symbol(_) | Op::Unknown => values[index].abs(),
-                Op::Sum => operands.iter().map(|edge| sizes[edge.node]).sum(),
-                Op::Product => operands.iter().map(|edge| sizes[edge.node]).product(),
-                Op::Reciprocal => size(0) * values[index] * values[index],
-                Op::Sin | Op::Cos => 1.0,
-                Op::Blend(_) => blend_bound(&operands.iter().map(|edge| sizes[edge.node]).collect::<Vec<_>>()),
-                Op::Apart | Op::Part(_) => (0..operands.len()).map(size).sum(),
-                Op::Call(call) => {
-                    let x = arguments(values, operands);
-                    let slope = |k: usize| call_slope(call, &x, k, values[index]).abs();
-                    let parts = (0..operands.len().min(3)).map(|k| slope(k) * size(k));
-                    parts.filter(|part| part.is_finite()).sum::<f64>() + values[index].abs()
-                }
-            };
-        }
         let mut slopes = vec![0.0_f64; edge.node + 1];
         slopes[edge.node] = 1.0;
         let mut bound = 0.0;
@@ -408,6 +393,39 @@ impl Tape {
         if bound.is_finite() { bound } else { 0.0 }
     }
 
+    /// After `run`: what a root is made of, with nothing cancelled, sines and cosines taken as one.
+    pub(super) fn size_bound(&self, values: &Values, root: usize) -> f64 {
+        self.sizes(values, root).last().copied().unwrap_or(0.0)
+    }
+
+    /// By node up to that of the root.
+    fn sizes(&self, values: &Values, root: usize) -> Vec<f64> {
+        let values = &values.values;
+        let (edge, needs) = (&self.roots[root], &self.needs[root]);
+        let mut sizes = vec![0.0_f64; edge.node + 1];
+        for &index in needs {
+            let node = &self.nodes[index];
+            let operands = &self.operands[node.first..node.last];
+            let size = |k: usize| sizes[operands[k].node];
+            sizes[index] = match node.op {
+                Op::Literal(_) | Op::Symbol(_) | Op::Unknown => values[index].abs(),
+                Op::Sum => operands.iter().map(|edge| sizes[edge.node]).sum(),
+                Op::Product => operands.iter().map(|edge| sizes[edge.node]).product(),
+                Op::Reciprocal => size(0) * values[index] * values[index],
+                Op::Sin | Op::Cos => 1.0,
+                Op::Blend(_) => blend_bound(&operands.iter().map(|edge| sizes[edge.node]).collect::<Vec<_>>()),
+                Op::Apart | Op::Part(_) => (0..operands.len()).map(size).sum(),
+                Op::Call(call) => {
+                    let x = arguments(values, operands);
+                    let slope = |k: usize| call_slope(call, &x, k, values[index]).abs();
+                    let parts = (0..operands.len().min(3)).map(|k| slope(k) * size(k));
+                    parts.filter(|part| part.is_finite()).sum::<f64>() + values[index].abs()
+                }
+            };
+        }
+        sizes
+    }
+
     /// Whether a root depends on sines or cosines.
     pub(super) fn turns(&self, root: usize) -> bool {
         self.needs[root].iter().any(|&index| matches!(self.nodes[index].op, Op::Sin | Op::Cos))
@@ -421,6 +439,11 @@ fn operand(values: &[f64], edge: &Edge) -> f64 {
 /// Of a function, which reads as many of them as it has.
 fn arguments(values: &[f64], operands: &[Edge]) -> [f64; 3] {
     [0, 1, 2].map(|k| operands.get(k).map_or(f64::NAN, |edge| operand(values, edge)))
+}
+
+/// What counts of the operands of a part.
+fn parts(share: f64) -> impl Iterator<Item = f64> {
+    std::iter::successors(Some(share), move |part| Some(share * part))
 }
 
 /// Of a blend, from bounds of its operands.
