@@ -76,6 +76,13 @@ pub(super) struct Sample {
     pub stress: Vec<Vec<f64>>,
 }
 
+/// Slopes of a scalar by multipliers, and bounds of what each is made of where a sample is and where nothing is closed.
+pub(super) struct Slopes {
+    slopes: Vec<f64>,
+    here: Vec<f64>,
+    anywhere: Vec<f64>,
+}
+
 /// What counts more than all else in a sample, by this much: loads that are small beside others where inputs and parameters are about one may be all that
 /// counts where these are not.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -364,42 +371,50 @@ impl Statics {
         bounds.chunks(6).map(|w| [[w[0], w[1], w[2]], [w[3], w[4], w[5]]]).collect()
     }
 
-    /// How fast an output's scalars change where multipliers stand, as these change by a step.
-    pub(super) fn changes(&mut self, sample: &Sample, multipliers: &[f64], step: &[f64], output: usize) -> Vec<f64> {
+    /// How an output's scalars change with multipliers.
+    pub(super) fn slopes(&mut self, sample: &Sample, multipliers: &[f64], output: usize) -> Vec<Slopes> {
         let roots = self.outputs[output].clone();
-        self.run(sample, multipliers, roots.clone());
-        let mut steps = vec![0.0; sample.at.len()];
-        self.multipliers.iter().zip(step).for_each(|(&symbol, &step)| steps[symbol] = step);
-        let mut change = |root| {
-            let mut sum = 0.0;
-            self.tape.gradient(&mut self.values, root, |symbol, slope| {
-                // What does not change has no part in it, whatever its slope.
-                if let Some(step) = steps.get(symbol).filter(|step| **step != 0.0) {
-                    sum += slope * step;
-                }
-            });
-            sum
-        };
-        roots.map(&mut change).collect()
-    }
-
-    /// What these changes are made of, with nothing cancelled: where the sample is, and where nothing is closed.
-    pub(super) fn bounds(
-        &mut self,
-        sample: &Sample,
-        multipliers: &[f64],
-        step: &[f64],
-        output: usize,
-    ) -> [Vec<f64>; 2] {
-        let roots = self.outputs[output].clone();
-        let mut units = vec![0.0; sample.at.len()];
-        self.multipliers.iter().zip(step).for_each(|(&symbol, &step)| units[symbol] = step.abs());
-        [&sample.at, &sample.anywhere].map(|at| {
+        let mut rows = vec![usize::MAX; sample.at.len()];
+        self.multipliers.iter().enumerate().for_each(|(row, &symbol)| rows[symbol] = row);
+        let count = multipliers.len();
+        let [here, anywhere] = [&sample.at, &sample.anywhere].map(|at| {
             let mut at = at.clone();
             self.multipliers.iter().zip(multipliers).for_each(|(&symbol, &x)| at[symbol] = x);
             self.tape.run_for(&mut self.values, &at, roots.clone());
-            let bound = |root| self.tape.slope_bound(&self.values, root, |symbol| units[symbol]);
-            roots.clone().map(bound).map(|bound| if bound.is_finite() { bound } else { 0.0 }).collect()
+            roots
+                .clone()
+                .map(|root| {
+                    let (mut slopes, mut bounds) = (vec![0.0; count], vec![0.0; count]);
+                    self.tape.slope_bounds(&self.values, root, |symbol, bound| {
+                        if let Some(slot) = rows.get(symbol).and_then(|&row| bounds.get_mut(row)) {
+                            *slot += bound;
+                        }
+                    });
+                    self.tape.gradient(&mut self.values, root, |symbol, slope| {
+                        if let Some(slot) = rows.get(symbol).and_then(|&row| slopes.get_mut(row)) {
+                            *slot += slope;
+                        }
+                    });
+                    (slopes, bounds)
+                })
+                .collect::<Vec<_>>()
+        });
+        let both = here.into_iter().zip(anywhere);
+        both.map(|((slopes, here), (_, anywhere))| Slopes { slopes, here, anywhere }).collect()
+    }
+}
+
+impl Slopes {
+    /// By so much the scalar changes as multipliers change by a step. What does not change has no part in it, whatever its slope.
+    pub(super) fn change(&self, step: &[f64]) -> f64 {
+        self.slopes.iter().zip(step).filter(|one| *one.1 != 0.0).map(|(slope, x)| slope * x).sum()
+    }
+
+    /// What such a change is made of, with nothing cancelled: where the sample is, and where nothing is closed.
+    pub(super) fn bounds(&self, step: &[f64]) -> [f64; 2] {
+        [&self.here, &self.anywhere].map(|bounds| {
+            let bound: f64 = bounds.iter().zip(step).map(|(bound, x)| bound * x.abs()).sum();
+            if bound.is_finite() { bound } else { 0.0 }
         })
     }
 }

@@ -24,7 +24,7 @@ use super::problem::{Point, Problem, Random};
 use super::rank::{self, Basis};
 use super::rates::{LATE, OFF};
 use super::singular::add;
-use super::statics::{Emphasis, Sample, Statics, Wrenches, difference, greatest};
+use super::statics::{Emphasis, Sample, Slopes, Statics, Wrenches, difference, greatest};
 use super::tape::Values;
 use super::{Complaint, shared};
 
@@ -272,8 +272,9 @@ impl Statics {
         for (k, stress) in sample.stress.iter().enumerate() {
             add(&mut some, 0.4 + (0.618_033_988_749_895 * k as f64).fract(), stress);
         }
-        let open: Vec<&Vec<f64>> =
-            sample.stress.iter().filter(|stress| self.is_moved(sample, &some, stress, output)).collect();
+        let slopes = self.slopes(sample, &some, output);
+        let is_moved = |stress: &&Vec<f64>| slopes.iter().any(|one| is_moved(one, &some, stress));
+        let open: Vec<&Vec<f64>> = sample.stress.iter().filter(is_moved).collect();
         if open.is_empty() {
             return Verdict::Determined;
         }
@@ -301,19 +302,6 @@ impl Statics {
         Verdict::Open(Open { rows: strained(&stresses).into_iter().map(|k| self.rows()[k]).collect(), joints })
     }
 
-    /// Whether self-stress changes an output, beyond roundings of what the change is made of.
-    fn is_moved(&mut self, sample: &Sample, multipliers: &[f64], stress: &[f64], output: usize) -> bool {
-        let changes = self.changes(sample, multipliers, stress, output);
-        // What is zero at a closed pose, as an axis across an axis, is rounding beside what it is elsewhere.
-        let [here, anywhere] = self.bounds(sample, multipliers, stress, output);
-        // What all multipliers make of it, beside which self-stress is known to so many digits.
-        let [whole, _] = self.bounds(sample, multipliers, multipliers, output);
-        let least = here.iter().zip(anywhere).zip(whole);
-        let least = least.map(|((here, anywhere), whole)| NOTHING * here + ROUNDING * anywhere + DIGITS * whole);
-        // What has no number tells nothing.
-        changes.iter().zip(least).any(|(change, least)| change.is_nan() || change.abs() > least)
-    }
-
     /// Whether constraints that hold by no joint, such as rods, bear none of the loads where self-stress has a part of them.
     fn bears_nothing(&self, multipliers: &[f64], stresses: &[(&Vec<f64>, Wrenches)], most: f64) -> bool {
         let strained = strained(stresses);
@@ -321,6 +309,17 @@ impl Statics {
         let is_cut = |k: usize| matches!(self.rows()[k].closing, LoopClosure::Cut(_));
         strained.iter().all(|&k| is_cut(k) || multipliers[k].abs() <= NOTHING * most)
     }
+}
+
+/// Whether self-stress changes a scalar, beyond roundings of what the change is made of.
+fn is_moved(slopes: &Slopes, multipliers: &[f64], stress: &[f64]) -> bool {
+    let change = slopes.change(stress);
+    // What is zero at a closed pose, as an axis across an axis, is rounding beside what it is elsewhere; and self-stress is known to so many digits
+    // of all multipliers.
+    let [here, anywhere] = slopes.bounds(stress);
+    let [whole, _] = slopes.bounds(multipliers);
+    // What has no number tells nothing.
+    change.is_nan() || change.abs() > NOTHING * here + ROUNDING * anywhere + DIGITS * whole
 }
 
 /// Places of rows that take part in any of self-stress.

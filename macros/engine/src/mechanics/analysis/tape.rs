@@ -352,12 +352,18 @@ impl Tape {
     /// `unit`, of all products along all ways with nothing cancelled, sines and cosines taken as one. Some roundings of it
     /// bound the error of the slopes (Higham 2002, chapter 3).
     pub(super) fn slope_bound(&self, values: &Values, root: usize, unit: impl Fn(usize) -> f64) -> f64 {
+        let mut bound = 0.0;
+        self.slope_bounds(values, root, |symbol, slope| bound += slope * unit(symbol));
+        if bound.is_finite() { bound } else { 0.0 }
+    }
+
+    /// The same symbol by symbol: (symbol, bound of what the slope by it is made of).
+    pub(super) fn slope_bounds(&self, values: &Values, root: usize, mut found: impl FnMut(usize, f64)) {
         let sizes = self.sizes(values, root);
         let values = &values.values;
         let (edge, needs) = (&self.roots[root], &self.needs[root]);
         let mut slopes = vec![0.0_f64; edge.node + 1];
         slopes[edge.node] = 1.0;
-        let mut bound = 0.0;
         for &index in needs.iter().rev() {
             let slope = slopes[index];
             if slope == 0.0 || !slope.is_finite() {
@@ -387,10 +393,9 @@ impl Tape {
                 slopes[edge.node] += slope * factor;
             }
             if let Op::Symbol(id) = node.op {
-                bound += slope * unit(id);
+                found(id, slope);
             }
         }
-        if bound.is_finite() { bound } else { 0.0 }
     }
 
     /// After `run`: what a root is made of, with nothing cancelled, sines and cosines taken as one.
