@@ -51,13 +51,13 @@
 /// | function | method | operations | as derived |
 /// |---|---|---|---|
 /// | `new` |  | none |  |
-/// | `forward_dynamics` | composite rigid body, LDL^T, parallel hinges in the axes of their base | 77 add, 132 mul, 4 div, 2 sqrt, 1 sincos | 89 add, 182 mul, 4 div, 2 sqrt, 1 sincos |
-/// | `inverse_dynamics` | recursive Newton-Euler, parallel hinges in the axes of their base | 75 add, 120 mul, 3 div, 2 sqrt, 1 sincos | 82 add, 160 mul, 3 div, 2 sqrt, 1 sincos |
-/// | `mass_matrix` | composite rigid body, parallel hinges in the axes of their tip | 24 add, 36 mul, 2 div, 1 sqrt, 1 sincos | 28 add, 48 mul, 2 div, 1 sqrt, 1 sincos |
-/// | `bias` | recursive Newton-Euler, parallel hinges in the axes of their base | 65 add, 111 mul, 3 div, 2 sqrt, 1 sincos | 73 add, 152 mul, 3 div, 2 sqrt, 1 sincos |
-/// | `outputs` | world axes | 182 add, 216 mul, 10 div, 2 sqrt, 1 sincos, 2 other | 209 add, 282 mul, 10 div, 2 sqrt, 1 sincos, 2 other |
+/// | `forward_dynamics` | composite rigid body, LDL^T, parallel hinges in the axes of their base | 78 add, 132 mul, 4 div, 2 sqrt, 1 sincos | 93 add, 192 mul, 4 div, 2 sqrt, 1 sincos |
+/// | `inverse_dynamics` | recursive Newton-Euler, parallel hinges in the axes of their base | 73 add, 117 mul, 3 div, 2 sqrt, 1 sincos | 82 add, 163 mul, 3 div, 2 sqrt, 1 sincos |
+/// | `mass_matrix` | composite rigid body, parallel hinges in the axes of their tip | 24 add, 36 mul, 2 div, 1 sqrt, 1 sincos | 28 add, 50 mul, 2 div, 1 sqrt, 1 sincos |
+/// | `bias` | recursive Newton-Euler, parallel hinges in the axes of their base | 65 add, 111 mul, 3 div, 2 sqrt, 1 sincos | 76 add, 158 mul, 3 div, 2 sqrt, 1 sincos |
+/// | `outputs` | world axes | 179 add, 213 mul, 10 div, 2 sqrt, 1 sincos, 2 other | 210 add, 291 mul, 10 div, 2 sqrt, 1 sincos, 2 other |
 /// | `dead_centres` | closed forms | 4 add, 4 mul, 1 sqrt, 1 sincos | 4 add, 4 mul, 1 sqrt, 1 sincos |
-/// | `margins` | closed forms, determinants | 6 add, 8 mul, 1 sqrt, 1 sincos | 6 add, 11 mul, 1 sqrt, 1 sincos |
+/// | `margins` | closed forms, determinants | 6 add, 8 mul, 1 sqrt, 1 sincos | 6 add, 12 mul, 1 sqrt, 1 sincos |
 pub mod four_bar {
     use ::core::prelude::v1::*;
     use ::multibody::Real;
@@ -355,7 +355,7 @@ pub mod four_bar {
         ///
         /// Method: composite rigid body, LDL^T, parallel hinges in the axes of their base.
         ///
-        /// Operations: 77 add, 132 mul, 4 div, 2 sqrt, 1 sincos; as derived, before optimisation: 89 add, 182 mul, 4 div, 2 sqrt, 1 sincos.
+        /// Operations: 78 add, 132 mul, 4 div, 2 sqrt, 1 sincos; as derived, before optimisation: 93 add, 192 mul, 4 div, 2 sqrt, 1 sincos.
         #[must_use]
         pub fn forward_dynamics(
             &self,
@@ -408,33 +408,32 @@ pub mod four_bar {
                 * side_1_with_coupler_v;
             // Velocities of what follows.
             let minus_slope_rocker_inv = T::lit(1.0) / root_rocker;
-            let crank_rate_times_sin_crank = v.crank * sin_crank;
             let crank_rate_times_cos_crank = v.crank * cos_crank;
-            let minus_rocker_rate = minus_slope_rocker_inv
-                * (T::lit(0.3333333333333333)
-                    * (minus_rocker_a * crank_rate_times_sin_crank
-                        - sin_crank * crank_rate_times_cos_crank)
-                    + sin_rocker * crank_rate_times_cos_crank
-                    - cos_rocker * crank_rate_times_sin_crank);
+            let sin_crank_times_0_333_minus_sin_rocker = T::lit(0.3333333333333333)
+                * sin_crank - sin_rocker;
+            let crank_rate_times_sin_crank = v.crank * sin_crank;
+            let pivot_1_with_cos_rocker = cos_rocker
+                - T::lit(0.3333333333333333) * minus_rocker_a;
+            let rocker_rate = minus_slope_rocker_inv
+                * (crank_rate_times_cos_crank * sin_crank_times_0_333_minus_sin_rocker
+                    + crank_rate_times_sin_crank * pivot_1_with_cos_rocker);
             // Accelerations of what follows.
-            let cos_rocker_times_minus_rocker_rate = cos_rocker * minus_rocker_rate;
-            let gap_accel_with_rocker_rate = minus_rocker_rate
-                * cos_rocker_times_minus_rocker_rate;
-            let sin_rocker_times_minus_rocker_rate = sin_rocker * minus_rocker_rate;
-            let gap_accel_with_sin_rocker = minus_rocker_rate
-                * sin_rocker_times_minus_rocker_rate;
-            let a_coupler_y_with_crank_rate = v.crank * crank_rate_times_sin_crank;
+            let cos_rocker_times_rocker_rate = cos_rocker * rocker_rate;
+            let gap_accel_with_rocker_rate = rocker_rate * cos_rocker_times_rocker_rate;
+            let sin_rocker_times_rocker_rate = sin_rocker * rocker_rate;
+            let gap_accel_with_sin_rocker = rocker_rate * sin_rocker_times_rocker_rate;
             let minus_a_coupler_x = v.crank * crank_rate_times_cos_crank;
-            let pivot_1_with_cos_rocker = T::lit(0.3333333333333333)
-                * cos_rocker_times_3_plus_4;
-            let rocker_gap_accel = minus_rocker_a * gap_accel_with_rocker_rate
-                + sin_crank * gap_accel_with_sin_rocker
+            let a_coupler_y_with_crank_rate = v.crank * crank_rate_times_sin_crank;
+            let rocker_gap_accel = sin_crank * gap_accel_with_sin_rocker
+                - T::lit(2.0) * crank_rate_times_sin_crank * sin_rocker_times_rocker_rate
+                + cos_rocker * minus_a_coupler_x
                 + sin_rocker * a_coupler_y_with_crank_rate
-                + minus_a_coupler_x * pivot_1_with_cos_rocker
-                + T::lit(2.0)
-                    * (crank_rate_times_sin_crank * sin_rocker_times_minus_rocker_rate
-                        + crank_rate_times_cos_crank
-                            * cos_rocker_times_minus_rocker_rate);
+                + minus_rocker_a
+                    * (gap_accel_with_rocker_rate
+                        - T::lit(0.3333333333333333) * minus_a_coupler_x)
+                + crank_rate_times_cos_crank
+                    * (T::lit(0.3333333333333333) * crank_rate_times_cos_crank
+                        - T::lit(2.0) * cos_rocker_times_rocker_rate);
             let rocker_accel = minus_slope_rocker_inv * rocker_gap_accel;
             // Force and moment through coupler.
             let coupler_gap_accel_with_sin_rocker = T::lit(3.0)
@@ -442,28 +441,26 @@ pub mod four_bar {
             let coupler_gap_accel_with_rocker_accel = T::lit(3.0)
                 * gap_accel_with_sin_rocker - rocker_accel * cos_rocker_times_3;
             let cos_crank_times_3 = T::lit(3.0) * cos_crank;
-            let coupler_gap_accel_with_rocker_rate = sin_rocker_times_minus_rocker_rate
-                * sin_crank_times_3
-                + cos_rocker_times_minus_rocker_rate * cos_crank_times_3;
+            let coupler_gap_accel_with_rocker_rate = sin_rocker_times_rocker_rate
+                * sin_crank_times_3 + cos_rocker_times_rocker_rate * cos_crank_times_3;
             let w2_coupler_z_with_crank_rate = v.crank * pivot_1_with_cos_crank
-                + coupler_gap_accel_with_rocker_rate;
-            let coupler_gap_accel_with_cos_crank = sin_rocker_times_minus_rocker_rate
-                * cos_crank_times_3
-                - cos_rocker_times_minus_rocker_rate * sin_crank_times_3;
+                - coupler_gap_accel_with_rocker_rate;
+            let coupler_gap_accel_with_cos_crank = sin_rocker_times_rocker_rate
+                * cos_crank_times_3 - cos_rocker_times_rocker_rate * sin_crank_times_3;
             let w2_coupler_z_with_coupler_v = v.crank * minus_coupler_v
-                - coupler_gap_accel_with_cos_crank;
+                + coupler_gap_accel_with_cos_crank;
             let coupler_gap_accel_with_coupler_v = minus_coupler_v
                 * (cos_crank * coupler_gap_accel_with_sin_rocker
                     + sin_crank * coupler_gap_accel_with_rocker_accel
                     + v.crank
-                        * (coupler_gap_accel_with_rocker_rate
-                            + w2_coupler_z_with_crank_rate))
+                        * (w2_coupler_z_with_crank_rate
+                            - coupler_gap_accel_with_rocker_rate))
                 - coupler_u
                     * (sin_crank * coupler_gap_accel_with_sin_rocker
                         - cos_crank * coupler_gap_accel_with_rocker_accel
                         + v.crank
-                            * (w2_coupler_z_with_coupler_v
-                                - coupler_gap_accel_with_cos_crank));
+                            * (coupler_gap_accel_with_cos_crank
+                                + w2_coupler_z_with_coupler_v));
             let f_coupler_passed_y = T::lit(1.7) * f_coupler_passed_with_cos_crank
                 - T::lit(0.2) * f_coupler_passed_with_sin_crank;
             let minus_a_coupler_y = a_coupler_y_with_crank_rate - T::lit(9.81);
@@ -498,34 +495,41 @@ pub mod four_bar {
                 * side_1_with_rocker_accel;
             let side_1_with_crank_rate = T::lit(0.08163265306122448)
                 * coupler_gap_accel_with_coupler_v;
-            let side_1_with_f_coupler_passed_x = minus_f_coupler_passed_x * w2_coupler_z
-                - T::lit(39.24) - T::lit(8.0) * side_1_with_sin_crank_and_cos_crank
-                + side_1_with_root_rocker
-                    * (sin_rocker - T::lit(0.3333333333333333) * sin_crank)
-                + f_coupler_passed_y * side_1_with_crank_rate;
-            let side_1_with_f_coupler_passed_y = sin_crank
-                * (T::lit(8.0) * side_1_with_cos_crank_and_sin_crank
-                    - f_coupler_passed_y * w2_coupler_z
-                    + side_1_with_root_rocker
-                        * (T::lit(0.3333333333333333) * minus_rocker_a - cos_rocker)
-                    + minus_f_coupler_passed_x * side_1_with_crank_rate);
+            let side_1 = input.torque + minus_n_coupler_z
+                + cos_crank
+                    * (minus_f_coupler_passed_x * w2_coupler_z - T::lit(39.24)
+                        - T::lit(8.0) * side_1_with_sin_crank_and_cos_crank
+                        - side_1_with_root_rocker
+                            * sin_crank_times_0_333_minus_sin_rocker
+                        + f_coupler_passed_y * side_1_with_crank_rate)
+                + sin_crank
+                    * (T::lit(8.0) * side_1_with_cos_crank_and_sin_crank
+                        - f_coupler_passed_y * w2_coupler_z
+                        - side_1_with_root_rocker * pivot_1_with_cos_rocker
+                        + minus_f_coupler_passed_x * side_1_with_crank_rate)
+                - T::lit(0.08163265306122448)
+                    * (pivot_1_with_cos_crank * coupler_u_times_minus_n_coupler_z
+                        + minus_coupler_v * minus_coupler_v_times_minus_n_coupler_z);
             // Factorisation L^T D L.
             let pivot_1_with_f_coupler_passed_y = cos_crank * f_coupler_passed_y
                 + sin_crank * minus_f_coupler_passed_x;
             let pivot_1_with_root_rocker = minus_slope_rocker_inv
-                * (sin_crank * pivot_1_with_cos_rocker - cos_crank_times_sin_rocker);
+                * (cos_crank_times_sin_rocker
+                    - sin_crank
+                        * (T::lit(0.3333333333333333) * cos_crank
+                            + pivot_1_with_cos_rocker));
             let sin_rocker_times_pivot_1_with_root_rocker = sin_rocker
                 * pivot_1_with_root_rocker;
             let cos_rocker_times_pivot_1_with_root_rocker = cos_rocker
                 * pivot_1_with_root_rocker;
             let pivot_1_with_coupler_v = minus_coupler_v
                 * (minus_coupler_v
-                    + T::lit(3.0)
+                    - T::lit(3.0)
                         * (cos_crank * sin_rocker_times_pivot_1_with_root_rocker
                             - sin_crank * cos_rocker_times_pivot_1_with_root_rocker))
                 + coupler_u
                     * (pivot_1_with_cos_crank
-                        - T::lit(3.0)
+                        + T::lit(3.0)
                             * (sin_crank * sin_rocker_times_pivot_1_with_root_rocker
                                 + cos_crank * cos_rocker_times_pivot_1_with_root_rocker));
             let pivot_1 = T::lit(17.188333333333333)
@@ -535,20 +539,14 @@ pub mod four_bar {
                     * (T::lit(0.5451020408163265) * pivot_1_with_coupler_v
                         - T::lit(13.355) - pivot_1_with_f_coupler_passed_y);
             Velocity {
-                crank: (input.torque + minus_n_coupler_z
-                    + cos_crank * side_1_with_f_coupler_passed_x
-                    + side_1_with_f_coupler_passed_y
-                    - T::lit(0.08163265306122448)
-                        * (pivot_1_with_cos_crank * coupler_u_times_minus_n_coupler_z
-                            + minus_coupler_v * minus_coupler_v_times_minus_n_coupler_z))
-                    / pivot_1,
+                crank: side_1 / pivot_1,
             }
         }
         /// Efforts that the accelerations `accel` need beside all declared forces.
         ///
         /// Method: recursive Newton-Euler, parallel hinges in the axes of their base.
         ///
-        /// Operations: 75 add, 120 mul, 3 div, 2 sqrt, 1 sincos; as derived, before optimisation: 82 add, 160 mul, 3 div, 2 sqrt, 1 sincos.
+        /// Operations: 73 add, 117 mul, 3 div, 2 sqrt, 1 sincos; as derived, before optimisation: 82 add, 163 mul, 3 div, 2 sqrt, 1 sincos.
         #[must_use]
         pub fn inverse_dynamics(
             &self,
@@ -603,69 +601,68 @@ pub mod four_bar {
                 * crank_effort_with_cos_crank_and_coupler_u;
             // Velocities of what follows.
             let minus_slope_rocker_inv = T::lit(1.0) / root_rocker;
-            let crank_rate_times_sin_crank = v.crank * sin_crank;
             let crank_rate_times_cos_crank = v.crank * cos_crank;
-            let minus_rocker_rate = minus_slope_rocker_inv
-                * (T::lit(0.3333333333333333)
-                    * (minus_rocker_a * crank_rate_times_sin_crank
-                        - sin_crank * crank_rate_times_cos_crank)
-                    + sin_rocker * crank_rate_times_cos_crank
-                    - cos_rocker * crank_rate_times_sin_crank);
-            let cos_rocker_times_minus_rocker_rate = cos_rocker * minus_rocker_rate;
-            let u_coupler_xy_with_rocker_rate = minus_rocker_rate
-                * cos_rocker_times_minus_rocker_rate;
+            let sin_crank_times_0_333_minus_sin_rocker = T::lit(0.3333333333333333)
+                * sin_crank - sin_rocker;
+            let crank_rate_times_sin_crank = v.crank * sin_crank;
+            let crank_effort_with_cos_rocker = cos_rocker
+                - T::lit(0.3333333333333333) * minus_rocker_a;
+            let rocker_rate = minus_slope_rocker_inv
+                * (crank_rate_times_cos_crank * sin_crank_times_0_333_minus_sin_rocker
+                    + crank_rate_times_sin_crank * crank_effort_with_cos_rocker);
+            let cos_rocker_times_rocker_rate = cos_rocker * rocker_rate;
+            let u_coupler_xy_with_rocker_rate = rocker_rate
+                * cos_rocker_times_rocker_rate;
             let minus_a_coupler_x = accel.crank * sin_crank
                 + v.crank * crank_rate_times_cos_crank;
             // Accelerations of what follows.
             let a_coupler_y_with_crank_accel = accel.crank * cos_crank
                 - v.crank * crank_rate_times_sin_crank;
-            let sin_rocker_times_minus_rocker_rate = sin_rocker * minus_rocker_rate;
-            let u_coupler_xy_with_sin_rocker = minus_rocker_rate
-                * sin_rocker_times_minus_rocker_rate;
-            let minus_rocker_gap_accel = T::lit(0.3333333333333333)
-                * (minus_rocker_a * minus_a_coupler_x
-                    - sin_crank * a_coupler_y_with_crank_accel
-                    - crank_rate_times_sin_crank * crank_rate_times_sin_crank
-                    - crank_rate_times_cos_crank * crank_rate_times_cos_crank)
-                - cos_rocker * minus_a_coupler_x
-                + sin_rocker * a_coupler_y_with_crank_accel
-                - minus_rocker_a * u_coupler_xy_with_rocker_rate
-                - sin_crank * u_coupler_xy_with_sin_rocker
+            let sin_rocker_times_rocker_rate = sin_rocker * rocker_rate;
+            let u_coupler_xy_with_sin_rocker = rocker_rate
+                * sin_rocker_times_rocker_rate;
+            let rocker_gap_accel = T::lit(0.3333333333333333)
+                * (crank_rate_times_sin_crank * crank_rate_times_sin_crank
+                    - minus_rocker_a * minus_a_coupler_x
+                    + crank_rate_times_cos_crank * crank_rate_times_cos_crank
+                    + sin_crank * a_coupler_y_with_crank_accel)
+                + cos_rocker * minus_a_coupler_x
+                - sin_rocker * a_coupler_y_with_crank_accel
+                + minus_rocker_a * u_coupler_xy_with_rocker_rate
+                + sin_crank * u_coupler_xy_with_sin_rocker
                 - T::lit(2.0)
-                    * (crank_rate_times_sin_crank * sin_rocker_times_minus_rocker_rate
-                        + crank_rate_times_cos_crank
-                            * cos_rocker_times_minus_rocker_rate);
-            let minus_rocker_accel = minus_slope_rocker_inv * minus_rocker_gap_accel;
+                    * (crank_rate_times_sin_crank * sin_rocker_times_rocker_rate
+                        + crank_rate_times_cos_crank * cos_rocker_times_rocker_rate);
+            let rocker_accel = minus_slope_rocker_inv * rocker_gap_accel;
             // Force and moment through coupler.
-            let u_coupler_xy_with_rocker_accel = T::lit(3.0) * sin_rocker
-                * minus_rocker_accel - T::lit(3.0) * u_coupler_xy_with_rocker_rate;
-            let u_coupler_xy_with_cos_rocker = T::lit(3.0) * u_coupler_xy_with_sin_rocker
-                + minus_rocker_accel * cos_rocker_times_3;
-            let u_coupler_xy_with_sin_crank = sin_rocker_times_minus_rocker_rate
-                * sin_crank_times_3
-                + cos_rocker_times_minus_rocker_rate * cos_crank_times_3;
+            let u_coupler_xy_with_rocker_accel = T::lit(3.0)
+                * u_coupler_xy_with_rocker_rate
+                + T::lit(3.0) * sin_rocker * rocker_accel;
+            let u_coupler_xy_with_cos_rocker = rocker_accel * cos_rocker_times_3
+                - T::lit(3.0) * u_coupler_xy_with_sin_rocker;
+            let u_coupler_xy_with_sin_crank = sin_rocker_times_rocker_rate
+                * sin_crank_times_3 + cos_rocker_times_rocker_rate * cos_crank_times_3;
             let w2_coupler_z_with_crank_rate = v.crank * crank_effort_with_cos_crank
-                + u_coupler_xy_with_sin_crank;
-            let u_coupler_xy_with_cos_crank = sin_rocker_times_minus_rocker_rate
-                * cos_crank_times_3
-                - cos_rocker_times_minus_rocker_rate * sin_crank_times_3;
+                - u_coupler_xy_with_sin_crank;
+            let u_coupler_xy_with_cos_crank = sin_rocker_times_rocker_rate
+                * cos_crank_times_3 - cos_rocker_times_rocker_rate * sin_crank_times_3;
             let w2_coupler_z_with_coupler_v = v.crank * minus_coupler_v
-                - u_coupler_xy_with_cos_crank;
+                + u_coupler_xy_with_cos_crank;
             let u_coupler_xy_with_coupler_v = minus_coupler_v
                 * (sin_crank * u_coupler_xy_with_cos_rocker
                     - cos_crank * u_coupler_xy_with_rocker_accel
-                    + accel.crank * minus_coupler_v
+                    - accel.crank * minus_coupler_v
                     + v.crank
-                        * (u_coupler_xy_with_sin_crank + w2_coupler_z_with_crank_rate))
+                        * (u_coupler_xy_with_sin_crank - w2_coupler_z_with_crank_rate))
                 + coupler_u
                     * (sin_crank * u_coupler_xy_with_rocker_accel
                         + cos_crank * u_coupler_xy_with_cos_rocker
-                        + accel.crank * crank_effort_with_cos_crank
+                        - accel.crank * crank_effort_with_cos_crank
                         + v.crank
                             * (u_coupler_xy_with_cos_crank
-                                - w2_coupler_z_with_coupler_v));
+                                + w2_coupler_z_with_coupler_v));
             let minus_u_coupler_xy = accel.crank
-                - T::lit(0.08163265306122448) * u_coupler_xy_with_coupler_v;
+                + T::lit(0.08163265306122448) * u_coupler_xy_with_coupler_v;
             let a_coupler_y = T::lit(9.81) + a_coupler_y_with_crank_accel;
             let crank_effort_with_coupler_u_and_sin_crank = T::lit(1.7)
                 * crank_effort_with_coupler_u
@@ -690,33 +687,31 @@ pub mod four_bar {
             let minus_coupler_v_times_minus_n_coupler_z = minus_coupler_v
                 * minus_n_coupler_z;
             let coupler_u_times_minus_n_coupler_z = coupler_u * minus_n_coupler_z;
-            let crank_effort_with_sin_rocker = T::lit(0.24489795918367346) * sin_rocker
-                * (cos_crank * minus_coupler_v_times_minus_n_coupler_z
-                    - sin_crank * coupler_u_times_minus_n_coupler_z)
-                - T::lit(9.0) * minus_rocker_accel
+            let crank_effort_with_rocker_accel = T::lit(9.0) * rocker_accel
+                + T::lit(0.24489795918367346) * sin_rocker
+                    * (cos_crank * minus_coupler_v_times_minus_n_coupler_z
+                        - sin_crank * coupler_u_times_minus_n_coupler_z)
                 + cos_rocker
                     * (T::lit(44.145)
                         - T::lit(0.24489795918367346)
                             * (sin_crank * minus_coupler_v_times_minus_n_coupler_z
                                 + cos_crank * coupler_u_times_minus_n_coupler_z));
             let crank_effort_with_root_rocker = minus_slope_rocker_inv
-                * crank_effort_with_sin_rocker;
-            let crank_effort_with_w2_coupler_z = crank_effort_with_coupler_u_and_coupler_v
-                * w2_coupler_z - T::lit(39.24)
-                - T::lit(8.0) * crank_effort_with_sin_crank_and_coupler_u
-                - crank_effort_with_coupler_u_and_sin_crank * minus_u_coupler_xy
-                + crank_effort_with_root_rocker
-                    * (sin_rocker - T::lit(0.3333333333333333) * sin_crank);
-            let crank_effort_with_u_coupler_xy = sin_crank
-                * (T::lit(8.0) * crank_effort_with_cos_crank_and_coupler_v
-                    - crank_effort_with_coupler_u_and_sin_crank * w2_coupler_z
-                    - crank_effort_with_coupler_u_and_coupler_v * minus_u_coupler_xy
-                    + crank_effort_with_root_rocker
-                        * (T::lit(0.3333333333333333) * minus_rocker_a - cos_rocker));
+                * crank_effort_with_rocker_accel;
             let minus_crank_effort = input.torque
                 - T::lit(3.8333333333333335) * accel.crank + minus_n_coupler_z
-                + cos_crank * crank_effort_with_w2_coupler_z
-                + crank_effort_with_u_coupler_xy
+                + cos_crank
+                    * (crank_effort_with_coupler_u_and_coupler_v * w2_coupler_z
+                        - T::lit(39.24)
+                        - T::lit(8.0) * crank_effort_with_sin_crank_and_coupler_u
+                        - crank_effort_with_coupler_u_and_sin_crank * minus_u_coupler_xy
+                        - crank_effort_with_root_rocker
+                            * sin_crank_times_0_333_minus_sin_rocker)
+                + sin_crank
+                    * (T::lit(8.0) * crank_effort_with_cos_crank_and_coupler_v
+                        - crank_effort_with_coupler_u_and_sin_crank * w2_coupler_z
+                        - crank_effort_with_coupler_u_and_coupler_v * minus_u_coupler_xy
+                        - crank_effort_with_root_rocker * crank_effort_with_cos_rocker)
                 - T::lit(0.08163265306122448)
                     * (crank_effort_with_cos_crank * coupler_u_times_minus_n_coupler_z
                         + minus_coupler_v * minus_coupler_v_times_minus_n_coupler_z);
@@ -728,7 +723,7 @@ pub mod four_bar {
         ///
         /// Method: composite rigid body, parallel hinges in the axes of their tip.
         ///
-        /// Operations: 24 add, 36 mul, 2 div, 1 sqrt, 1 sincos; as derived, before optimisation: 28 add, 48 mul, 2 div, 1 sqrt, 1 sincos.
+        /// Operations: 24 add, 36 mul, 2 div, 1 sqrt, 1 sincos; as derived, before optimisation: 28 add, 50 mul, 2 div, 1 sqrt, 1 sincos.
         #[must_use]
         pub fn mass_matrix(
             &self,
@@ -748,9 +743,10 @@ pub mod four_bar {
             let cos_rocker = rocker_d_inv
                 * (minus_rocker_a * minus_rocker_c + sin_crank * root_rocker);
             let mass_matrix_0_with_sin_crank = (cos_crank_times_sin_rocker
-                + sin_crank
-                    * (T::lit(0.3333333333333333) * (minus_rocker_a - cos_crank)
-                        - cos_rocker)) / root_rocker;
+                - sin_crank
+                    * (cos_rocker
+                        + T::lit(0.3333333333333333) * (cos_crank - minus_rocker_a)))
+                / root_rocker;
             let cos_rocker_times_3_plus_4 = T::lit(4.0) + T::lit(3.0) * cos_rocker;
             let minus_coupler_v = sin_crank * cos_rocker_times_3_plus_4
                 - T::lit(3.0) * cos_crank_times_sin_rocker;
@@ -791,7 +787,7 @@ pub mod four_bar {
         ///
         /// Method: recursive Newton-Euler, parallel hinges in the axes of their base.
         ///
-        /// Operations: 65 add, 111 mul, 3 div, 2 sqrt, 1 sincos; as derived, before optimisation: 73 add, 152 mul, 3 div, 2 sqrt, 1 sincos.
+        /// Operations: 65 add, 111 mul, 3 div, 2 sqrt, 1 sincos; as derived, before optimisation: 76 add, 158 mul, 3 div, 2 sqrt, 1 sincos.
         #[must_use]
         pub fn bias(
             &self,
@@ -811,18 +807,18 @@ pub mod four_bar {
             let root_rocker = Real::sqrt(rocker_d - minus_rocker_c * minus_rocker_c);
             let cos_rocker = rocker_d_inv
                 * (minus_rocker_a * minus_rocker_c + sin_crank * root_rocker);
+            // Closed form of coupler.
             let cos_rocker_times_3 = T::lit(3.0) * cos_rocker;
             let cos_rocker_times_3_plus_4 = T::lit(4.0) + cos_rocker_times_3;
-            let sin_rocker = rocker_d_inv
-                * (sin_crank * minus_rocker_c - minus_rocker_a * root_rocker);
-            // Closed form of coupler.
             let sin_crank_times_3 = T::lit(3.0) * sin_crank;
+            let sin_rocker_with_rocker_d = rocker_d_inv
+                * (minus_rocker_c * sin_crank_times_3
+                    - T::lit(3.0) * minus_rocker_a * root_rocker);
             let crank_effort_with_cos_crank = cos_crank * cos_rocker_times_3_plus_4
-                + sin_rocker * sin_crank_times_3;
+                + sin_crank * sin_rocker_with_rocker_d;
             let coupler_u = crank_effort_with_cos_crank - T::lit(1.0);
-            let cos_crank_times_3 = T::lit(3.0) * cos_crank;
             let minus_coupler_v = sin_crank * cos_rocker_times_3_plus_4
-                - sin_rocker * cos_crank_times_3;
+                - cos_crank * sin_rocker_with_rocker_d;
             // Force and moment through coupler.
             let crank_effort_with_coupler_u = cos_crank * coupler_u
                 + sin_crank * minus_coupler_v;
@@ -845,60 +841,64 @@ pub mod four_bar {
                 * crank_effort_with_cos_crank_and_coupler_u;
             // Velocities of what follows.
             let minus_slope_rocker_inv = T::lit(1.0) / root_rocker;
-            let crank_rate_times_sin_crank = v.crank * sin_crank;
             let crank_rate_times_cos_crank = v.crank * cos_crank;
-            let minus_rocker_rate = minus_slope_rocker_inv
-                * (T::lit(0.3333333333333333)
-                    * (minus_rocker_a * crank_rate_times_sin_crank
-                        - sin_crank * crank_rate_times_cos_crank)
-                    + sin_rocker * crank_rate_times_cos_crank
-                    - cos_rocker * crank_rate_times_sin_crank);
+            let crank_effort_with_rocker_d = T::lit(0.3333333333333333) * sin_crank
+                - T::lit(0.3333333333333333) * sin_rocker_with_rocker_d;
+            let crank_rate_times_sin_crank = v.crank * sin_crank;
+            let crank_effort_with_cos_rocker = cos_rocker
+                - T::lit(0.3333333333333333) * minus_rocker_a;
+            let rocker_rate = minus_slope_rocker_inv
+                * (crank_rate_times_cos_crank * crank_effort_with_rocker_d
+                    + crank_rate_times_sin_crank * crank_effort_with_cos_rocker);
             // Accelerations of what follows.
-            let cos_rocker_times_minus_rocker_rate = cos_rocker * minus_rocker_rate;
-            let gap_accel_with_rocker_rate = minus_rocker_rate
-                * cos_rocker_times_minus_rocker_rate;
-            let sin_rocker_times_minus_rocker_rate = sin_rocker * minus_rocker_rate;
-            let gap_accel_with_sin_rocker = minus_rocker_rate
-                * sin_rocker_times_minus_rocker_rate;
-            let a_coupler_y_with_crank_rate = v.crank * crank_rate_times_sin_crank;
+            let cos_rocker_times_rocker_rate = cos_rocker * rocker_rate;
+            let gap_accel_with_rocker_rate = rocker_rate * cos_rocker_times_rocker_rate;
+            let sin_rocker_with_rocker_d_times_rocker_rate = sin_rocker_with_rocker_d
+                * rocker_rate;
             let minus_a_coupler_x = v.crank * crank_rate_times_cos_crank;
-            let rocker_gap_accel = minus_rocker_a * gap_accel_with_rocker_rate
-                + sin_crank * gap_accel_with_sin_rocker
-                + sin_rocker * a_coupler_y_with_crank_rate
-                + minus_a_coupler_x * T::lit(0.3333333333333333)
-                    * cos_rocker_times_3_plus_4
-                + T::lit(2.0)
-                    * (crank_rate_times_sin_crank * sin_rocker_times_minus_rocker_rate
-                        + crank_rate_times_cos_crank
-                            * cos_rocker_times_minus_rocker_rate);
+            let gap_accel_with_rocker_d = rocker_rate
+                * sin_rocker_with_rocker_d_times_rocker_rate;
+            let a_coupler_y_with_crank_rate = v.crank * crank_rate_times_sin_crank;
+            let rocker_gap_accel = cos_rocker * minus_a_coupler_x
+                - T::lit(0.6666666666666666) * crank_rate_times_sin_crank
+                    * sin_rocker_with_rocker_d_times_rocker_rate
+                + minus_rocker_a
+                    * (gap_accel_with_rocker_rate
+                        - T::lit(0.3333333333333333) * minus_a_coupler_x)
+                + crank_rate_times_cos_crank
+                    * (T::lit(0.3333333333333333) * crank_rate_times_cos_crank
+                        - T::lit(2.0) * cos_rocker_times_rocker_rate)
+                + T::lit(0.3333333333333333)
+                    * (sin_crank * gap_accel_with_rocker_d
+                        + sin_rocker_with_rocker_d * a_coupler_y_with_crank_rate);
             let rocker_accel = minus_slope_rocker_inv * rocker_gap_accel;
             // Force and moment through coupler.
-            let coupler_gap_accel_with_sin_rocker = T::lit(3.0)
-                * gap_accel_with_rocker_rate + T::lit(3.0) * sin_rocker * rocker_accel;
             let coupler_gap_accel_with_rocker_accel = T::lit(3.0)
-                * gap_accel_with_sin_rocker - rocker_accel * cos_rocker_times_3;
-            let coupler_gap_accel_with_rocker_rate = sin_rocker_times_minus_rocker_rate
-                * sin_crank_times_3
-                + cos_rocker_times_minus_rocker_rate * cos_crank_times_3;
+                * gap_accel_with_rocker_rate + sin_rocker_with_rocker_d * rocker_accel;
+            let coupler_gap_accel_with_rocker_rate = gap_accel_with_rocker_d
+                - rocker_accel * cos_rocker_times_3;
+            let coupler_gap_accel_with_sin_crank = sin_crank
+                * sin_rocker_with_rocker_d_times_rocker_rate
+                + T::lit(3.0) * cos_crank * cos_rocker_times_rocker_rate;
             let w2_coupler_z_with_crank_rate = v.crank * crank_effort_with_cos_crank
-                + coupler_gap_accel_with_rocker_rate;
-            let coupler_gap_accel_with_cos_crank = sin_rocker_times_minus_rocker_rate
-                * cos_crank_times_3
-                - cos_rocker_times_minus_rocker_rate * sin_crank_times_3;
+                - coupler_gap_accel_with_sin_crank;
+            let coupler_gap_accel_with_cos_crank = cos_crank
+                * sin_rocker_with_rocker_d_times_rocker_rate
+                - cos_rocker_times_rocker_rate * sin_crank_times_3;
             let w2_coupler_z_with_coupler_v = v.crank * minus_coupler_v
-                - coupler_gap_accel_with_cos_crank;
+                + coupler_gap_accel_with_cos_crank;
             let coupler_gap_accel_with_coupler_v = minus_coupler_v
-                * (cos_crank * coupler_gap_accel_with_sin_rocker
-                    + sin_crank * coupler_gap_accel_with_rocker_accel
+                * (cos_crank * coupler_gap_accel_with_rocker_accel
+                    + sin_crank * coupler_gap_accel_with_rocker_rate
                     + v.crank
-                        * (coupler_gap_accel_with_rocker_rate
-                            + w2_coupler_z_with_crank_rate))
+                        * (w2_coupler_z_with_crank_rate
+                            - coupler_gap_accel_with_sin_crank))
                 - coupler_u
-                    * (sin_crank * coupler_gap_accel_with_sin_rocker
-                        - cos_crank * coupler_gap_accel_with_rocker_accel
+                    * (sin_crank * coupler_gap_accel_with_rocker_accel
+                        - cos_crank * coupler_gap_accel_with_rocker_rate
                         + v.crank
-                            * (w2_coupler_z_with_coupler_v
-                                - coupler_gap_accel_with_cos_crank));
+                            * (coupler_gap_accel_with_cos_crank
+                                + w2_coupler_z_with_coupler_v));
             let crank_effort_with_coupler_u_and_sin_crank = T::lit(1.7)
                 * crank_effort_with_coupler_u
                 - T::lit(0.2) * crank_effort_with_sin_crank;
@@ -924,7 +924,7 @@ pub mod four_bar {
                 * minus_n_coupler_z;
             let coupler_u_times_minus_n_coupler_z = coupler_u * minus_n_coupler_z;
             let crank_effort_with_rocker_accel = T::lit(9.0) * rocker_accel
-                + T::lit(0.24489795918367346) * sin_rocker
+                + T::lit(0.08163265306122448) * sin_rocker_with_rocker_d
                     * (cos_crank * minus_coupler_v_times_minus_n_coupler_z
                         - sin_crank * coupler_u_times_minus_n_coupler_z)
                 + cos_rocker
@@ -936,34 +936,30 @@ pub mod four_bar {
                 * crank_effort_with_rocker_accel;
             let crank_effort_with_rate = T::lit(0.08163265306122448)
                 * coupler_gap_accel_with_coupler_v;
-            let crank_effort_with_w2_coupler_z = crank_effort_with_coupler_u_and_coupler_v
-                * w2_coupler_z - T::lit(39.24)
-                - T::lit(8.0) * crank_effort_with_sin_crank_and_coupler_u
-                + crank_effort_with_root_rocker
-                    * (sin_rocker - T::lit(0.3333333333333333) * sin_crank)
-                + crank_effort_with_coupler_u_and_sin_crank * crank_effort_with_rate;
-            let crank_effort_with_rocker_a = sin_crank
-                * (T::lit(8.0) * crank_effort_with_cos_crank_and_coupler_v
-                    - crank_effort_with_coupler_u_and_sin_crank * w2_coupler_z
-                    + crank_effort_with_root_rocker
-                        * (T::lit(0.3333333333333333) * minus_rocker_a - cos_rocker)
-                    + crank_effort_with_coupler_u_and_coupler_v
-                        * crank_effort_with_rate);
-            ::multibody::nalgebra::SVector::from([
-                -(input.torque + minus_n_coupler_z
-                    + cos_crank * crank_effort_with_w2_coupler_z
-                    + crank_effort_with_rocker_a
-                    - T::lit(0.08163265306122448)
-                        * (crank_effort_with_cos_crank
-                            * coupler_u_times_minus_n_coupler_z
-                            + minus_coupler_v * minus_coupler_v_times_minus_n_coupler_z)),
-            ])
+            let minus_crank_effort = input.torque + minus_n_coupler_z
+                + cos_crank
+                    * (crank_effort_with_coupler_u_and_coupler_v * w2_coupler_z
+                        - T::lit(39.24)
+                        - T::lit(8.0) * crank_effort_with_sin_crank_and_coupler_u
+                        - crank_effort_with_root_rocker * crank_effort_with_rocker_d
+                        + crank_effort_with_coupler_u_and_sin_crank
+                            * crank_effort_with_rate)
+                + sin_crank
+                    * (T::lit(8.0) * crank_effort_with_cos_crank_and_coupler_v
+                        - crank_effort_with_coupler_u_and_sin_crank * w2_coupler_z
+                        - crank_effort_with_root_rocker * crank_effort_with_cos_rocker
+                        + crank_effort_with_coupler_u_and_coupler_v
+                            * crank_effort_with_rate)
+                - T::lit(0.08163265306122448)
+                    * (crank_effort_with_cos_crank * coupler_u_times_minus_n_coupler_z
+                        + minus_coupler_v * minus_coupler_v_times_minus_n_coupler_z);
+            ::multibody::nalgebra::SVector::from([-minus_crank_effort])
         }
         /// Outputs.
         ///
         /// Method: world axes.
         ///
-        /// Operations: 182 add, 216 mul, 10 div, 2 sqrt, 1 sincos, 2 other; as derived, before optimisation: 209 add, 282 mul, 10 div, 2 sqrt, 1 sincos, 2 other.
+        /// Operations: 179 add, 213 mul, 10 div, 2 sqrt, 1 sincos, 2 other; as derived, before optimisation: 210 add, 291 mul, 10 div, 2 sqrt, 1 sincos, 2 other.
         #[must_use]
         pub fn outputs(&self, _t: T, state: &State<T>, input: &Input<T>) -> Output<T> {
             let q = &state.q;
@@ -995,31 +991,31 @@ pub mod four_bar {
             let coupler_u_times_0_286 = T::lit(0.2857142857142857) * coupler_u;
             let crank_rate_times_minus_coupler_v = v.crank * minus_coupler_v;
             let minus_slope_rocker_inv = T::lit(1.0) / root_rocker;
-            let crank_rate_times_sin_crank = v.crank * sin_crank;
-            let crank_rate_times_cos_crank = v.crank * cos_crank;
-            let minus_w_rocker_z = minus_slope_rocker_inv
-                * (T::lit(0.3333333333333333)
-                    * (minus_rocker_a * crank_rate_times_sin_crank
-                        - sin_crank * crank_rate_times_cos_crank)
-                    + sin_rocker * crank_rate_times_cos_crank
-                    - cos_rocker * crank_rate_times_sin_crank);
             // Velocities of what follows.
-            let cos_rocker_times_minus_w_rocker_z = cos_rocker * minus_w_rocker_z;
+            let crank_rate_times_sin_crank = v.crank * sin_crank;
+            let pivot_1_with_cos_rocker = cos_rocker
+                - T::lit(0.3333333333333333) * minus_rocker_a;
+            let crank_rate_times_cos_crank = v.crank * cos_crank;
+            let sin_crank_times_0_333_minus_sin_rocker = T::lit(0.3333333333333333)
+                * sin_crank - sin_rocker;
+            let w_rocker_z = minus_slope_rocker_inv
+                * (crank_rate_times_sin_crank * pivot_1_with_cos_rocker
+                    + crank_rate_times_cos_crank
+                        * sin_crank_times_0_333_minus_sin_rocker);
+            let cos_rocker_times_w_rocker_z = cos_rocker * w_rocker_z;
             let sin_crank_times_3 = T::lit(3.0) * sin_crank;
-            let sin_rocker_times_minus_w_rocker_z = sin_rocker * minus_w_rocker_z;
+            let sin_rocker_times_w_rocker_z = sin_rocker * w_rocker_z;
             let cos_crank_times_3 = T::lit(3.0) * cos_crank;
-            let coupler_with_sin_rocker = sin_rocker_times_minus_w_rocker_z
-                * cos_crank_times_3
-                - cos_rocker_times_minus_w_rocker_z * sin_crank_times_3;
+            let coupler_with_sin_rocker = sin_rocker_times_w_rocker_z * cos_crank_times_3
+                - cos_rocker_times_w_rocker_z * sin_crank_times_3;
             let coupler_with_crank_rate = crank_rate_times_minus_coupler_v
-                - coupler_with_sin_rocker;
+                + coupler_with_sin_rocker;
             let minus_coupler_v_times_0_0816 = T::lit(0.08163265306122448)
                 * minus_coupler_v;
-            let coupler_with_w_rocker_z = sin_rocker_times_minus_w_rocker_z
-                * sin_crank_times_3
-                + cos_rocker_times_minus_w_rocker_z * cos_crank_times_3;
+            let coupler_with_w_rocker_z = sin_rocker_times_w_rocker_z * sin_crank_times_3
+                + cos_rocker_times_w_rocker_z * cos_crank_times_3;
             let coupler_with_sin_crank = v.crank * coupler_with_cos_crank
-                + coupler_with_w_rocker_z;
+                - coupler_with_w_rocker_z;
             let coupler_u_times_0_0816 = T::lit(0.08163265306122448) * coupler_u;
             let minus_coupler_rate = coupler_with_crank_rate
                 * minus_coupler_v_times_0_0816
@@ -1052,29 +1048,26 @@ pub mod four_bar {
                 + energy_with_coupler_u * f_coupler_with_coupler_v;
             let f_coupler_x_with_sin_crank_times_16 = T::lit(16.0)
                 * f_coupler_x_with_sin_crank;
-            let accel_with_w_rocker_z = minus_w_rocker_z
-                * cos_rocker_times_minus_w_rocker_z;
+            let accel_with_w_rocker_z = w_rocker_z * cos_rocker_times_w_rocker_z;
             let accel_with_w_rocker_z_times_3 = T::lit(3.0) * accel_with_w_rocker_z;
             // Accelerations of what follows.
-            let w2_crank_z_with_crank_rate = crank_rate_times_cos_crank
+            let rocker_gap_accel_with_crank_rate = crank_rate_times_cos_crank
                 * crank_rate_times_cos_crank;
-            let rocker_gap_accel_with_crank_rate = v.crank * crank_rate_times_cos_crank;
+            let rocker_gap_accel_with_cos_crank = v.crank * crank_rate_times_cos_crank;
             let rocker_gap_accel_with_sin_crank = v.crank * crank_rate_times_sin_crank;
-            let accel_with_sin_rocker = minus_w_rocker_z
-                * sin_rocker_times_minus_w_rocker_z;
-            let rocker_gap_accel_with_rocker_a = minus_rocker_a * accel_with_w_rocker_z
-                + sin_crank * accel_with_sin_rocker
-                + T::lit(2.0)
-                    * (crank_rate_times_sin_crank * sin_rocker_times_minus_w_rocker_z
-                        + crank_rate_times_cos_crank
-                            * cos_rocker_times_minus_w_rocker_z);
+            let accel_with_sin_rocker = w_rocker_z * sin_rocker_times_w_rocker_z;
+            let rocker_gap_accel_with_rocker_a = T::lit(2.0)
+                * (crank_rate_times_sin_crank * sin_rocker_times_w_rocker_z
+                    + crank_rate_times_cos_crank * cos_rocker_times_w_rocker_z)
+                - minus_rocker_a * accel_with_w_rocker_z
+                - sin_crank * accel_with_sin_rocker;
             let rocker_accel = minus_slope_rocker_inv
                 * (T::lit(0.3333333333333333)
-                    * (w2_crank_z_with_crank_rate
-                        - minus_rocker_a * rocker_gap_accel_with_crank_rate)
-                    + cos_rocker * rocker_gap_accel_with_crank_rate
+                    * (rocker_gap_accel_with_crank_rate
+                        - minus_rocker_a * rocker_gap_accel_with_cos_crank)
+                    + cos_rocker * rocker_gap_accel_with_cos_crank
                     + sin_rocker * rocker_gap_accel_with_sin_crank
-                    + rocker_gap_accel_with_rocker_a);
+                    - rocker_gap_accel_with_rocker_a);
             // Force and moment through coupler.
             let coupler_gap_accel_with_rocker_accel = accel_with_w_rocker_z_times_3
                 + rocker_accel * sin_rocker_times_3;
@@ -1082,33 +1075,32 @@ pub mod four_bar {
             let coupler_gap_accel_with_w_rocker_z = accel_with_sin_rocker_times_3
                 - cos_rocker_times_3 * rocker_accel;
             let coupler_accel_with_crank_rate = v.crank
-                * (coupler_with_w_rocker_z + coupler_with_sin_crank);
+                * (coupler_with_w_rocker_z - coupler_with_sin_crank);
             let coupler_accel_with_sin_rocker = v.crank
-                * (coupler_with_sin_rocker - coupler_with_crank_rate);
+                * (coupler_with_sin_rocker + coupler_with_crank_rate);
             let coupler_gap_accel_with_coupler_v = minus_coupler_v
                 * (cos_crank * coupler_gap_accel_with_rocker_accel
                     + sin_crank * coupler_gap_accel_with_w_rocker_z
-                    + coupler_accel_with_crank_rate)
+                    - coupler_accel_with_crank_rate)
                 - coupler_u
                     * (sin_crank * coupler_gap_accel_with_rocker_accel
                         - cos_crank * coupler_gap_accel_with_w_rocker_z
-                        - coupler_accel_with_sin_rocker);
-            let w2_crank_z = crank_rate_times_sin_crank * crank_rate_times_sin_crank
-                + w2_crank_z_with_crank_rate;
-            let w2_crank_z_minus_sin_crank_times_9_81 = w2_crank_z
-                - T::lit(9.81) * sin_crank;
+                        + coupler_accel_with_sin_rocker);
+            let w2_crank_z = v.crank * v.crank;
+            let sin_crank_times_9_81_minus_w2_crank_z = T::lit(9.81) * sin_crank
+                - w2_crank_z;
             let a_coupler_x_with_coupler_u = coupler_u
-                * w2_crank_z_minus_sin_crank_times_9_81;
+                * sin_crank_times_9_81_minus_w2_crank_z;
             let a_coupler_y_with_coupler_v = minus_coupler_v
-                * w2_crank_z_minus_sin_crank_times_9_81;
+                * sin_crank_times_9_81_minus_w2_crank_z;
             let minus_n_coupler_z = f_coupler_x_with_sin_crank_times_16
                 + T::lit(1.090204081632653) * coupler_gap_accel_with_coupler_v
-                - T::lit(1.962)
-                    * (cos_crank_times_minus_coupler_v
-                        + T::lit(0.1019367991845056) * a_coupler_x_with_coupler_u)
-                + T::lit(16.677)
-                    * (T::lit(0.1019367991845056) * a_coupler_y_with_coupler_v
-                        - cos_crank_times_coupler_u);
+                + T::lit(1.962)
+                    * (T::lit(0.1019367991845056) * a_coupler_x_with_coupler_u
+                        - cos_crank_times_minus_coupler_v)
+                - T::lit(16.677)
+                    * (cos_crank_times_coupler_u
+                        + T::lit(0.1019367991845056) * a_coupler_y_with_coupler_v);
             // Motion of crank.
             let coupler_u_times_minus_n_coupler_z = coupler_u * minus_n_coupler_z;
             let cos_rocker_times_44_145 = T::lit(44.145) * cos_rocker;
@@ -1141,12 +1133,11 @@ pub mod four_bar {
             let side_1 = input.torque + minus_n_coupler_z
                 - T::lit(0.08163265306122448) * coupler_with_cos_crank
                     * coupler_u_times_minus_n_coupler_z
-                + sin_crank * side_1_with_root_rocker
-                    * (T::lit(0.3333333333333333) * minus_rocker_a - cos_rocker)
+                - sin_crank * side_1_with_root_rocker * pivot_1_with_cos_rocker
                 - cos_crank
                     * (T::lit(39.24)
                         + side_1_with_root_rocker
-                            * (T::lit(0.3333333333333333) * sin_crank - sin_rocker))
+                            * sin_crank_times_0_333_minus_sin_rocker)
                 + minus_coupler_v
                     * (T::lit(0.2857142857142857) * f_coupler_x
                         - T::lit(0.08163265306122448)
@@ -1155,10 +1146,11 @@ pub mod four_bar {
             // Factorisation L^T D L.
             let f_coupler_passed_y = T::lit(0.2) * minus_coupler_v
                 + T::lit(1.7) * coupler_u;
-            let energy_with_rocker_a = sin_crank * (minus_rocker_a - cos_crank);
             let pivot_1_with_root_rocker = minus_slope_rocker_inv
-                * (cos_crank_times_sin_rocker - sin_crank * cos_rocker
-                    + T::lit(0.3333333333333333) * energy_with_rocker_a);
+                * (cos_crank_times_sin_rocker
+                    - sin_crank
+                        * (T::lit(0.3333333333333333) * cos_crank
+                            + pivot_1_with_cos_rocker));
             let sin_rocker_times_pivot_1_with_root_rocker = sin_rocker
                 * pivot_1_with_root_rocker;
             let cos_rocker_times_pivot_1_with_root_rocker = cos_rocker
@@ -1180,40 +1172,42 @@ pub mod four_bar {
                 - T::lit(9.0) * pivot_1_with_root_rocker * pivot_1_with_root_rocker;
             let minus_dw_crank_z = side_1 / minus_pivot_1;
             // Accelerations of what follows.
-            let rocker_gap_accel_with_dw_crank_z = rocker_gap_accel_with_crank_rate
+            let rocker_gap_accel_with_dw_crank_z = rocker_gap_accel_with_cos_crank
                 - sin_crank * minus_dw_crank_z;
-            let rocker_gap_accel_with_cos_crank = rocker_gap_accel_with_sin_crank
+            let rocker_gap_accel_with_cos_crank_and_dw_crank_z = rocker_gap_accel_with_sin_crank
                 + cos_crank * minus_dw_crank_z;
             let rocker_gap_accel = T::lit(0.3333333333333333)
-                * (w2_crank_z - minus_rocker_a * rocker_gap_accel_with_dw_crank_z
-                    - sin_crank * rocker_gap_accel_with_cos_crank)
+                * (crank_rate_times_sin_crank * crank_rate_times_sin_crank
+                    + rocker_gap_accel_with_crank_rate
+                    - minus_rocker_a * rocker_gap_accel_with_dw_crank_z
+                    - sin_crank * rocker_gap_accel_with_cos_crank_and_dw_crank_z)
                 + cos_rocker * rocker_gap_accel_with_dw_crank_z
-                + sin_rocker * rocker_gap_accel_with_cos_crank
-                + rocker_gap_accel_with_rocker_a;
+                + sin_rocker * rocker_gap_accel_with_cos_crank_and_dw_crank_z
+                - rocker_gap_accel_with_rocker_a;
             let rocker_accel_with_root_rocker = minus_slope_rocker_inv
                 * rocker_gap_accel;
             let coupler_accel_with_w_rocker_z = accel_with_w_rocker_z_times_3
                 + rocker_accel_with_root_rocker * sin_rocker_times_3;
             let coupler_accel_with_cos_rocker = accel_with_sin_rocker_times_3
                 - cos_rocker_times_3 * rocker_accel_with_root_rocker;
-            let minus_coupler_accel = (cos_crank * coupler_accel_with_w_rocker_z
-                + sin_crank * coupler_accel_with_cos_rocker
-                - minus_coupler_v * minus_dw_crank_z + coupler_accel_with_crank_rate)
-                * minus_coupler_v_times_0_0816
-                + (cos_crank * coupler_accel_with_cos_rocker
-                    - sin_crank * coupler_accel_with_w_rocker_z
-                    - coupler_with_cos_crank * minus_dw_crank_z
+            let coupler_accel = (minus_coupler_v * minus_dw_crank_z
+                - cos_crank * coupler_accel_with_w_rocker_z
+                - sin_crank * coupler_accel_with_cos_rocker
+                + coupler_accel_with_crank_rate) * minus_coupler_v_times_0_0816
+                + (sin_crank * coupler_accel_with_w_rocker_z
+                    - cos_crank * coupler_accel_with_cos_rocker
+                    + coupler_with_cos_crank * minus_dw_crank_z
                     + coupler_accel_with_sin_rocker) * coupler_u_times_0_0816;
             // Force and moment through coupler.
             let a_coupler_with_cos_crank = T::lit(9.81) * cos_crank - minus_dw_crank_z;
             let a_coupler_x_with_coupler_v = a_coupler_x_with_coupler_u
-                + minus_coupler_v * a_coupler_with_cos_crank;
-            let u_coupler_xy = minus_dw_crank_z + minus_coupler_accel;
+                - minus_coupler_v * a_coupler_with_cos_crank;
+            let u_coupler_xy = minus_dw_crank_z - coupler_accel;
             let a_coupler_y_with_coupler_u = a_coupler_y_with_coupler_v
-                - coupler_u * a_coupler_with_cos_crank;
+                + coupler_u * a_coupler_with_cos_crank;
             let minus_n_coupler_z_with_u_coupler_xy = f_coupler_x_with_sin_crank_times_16
-                - T::lit(0.2) * a_coupler_x_with_coupler_v
-                + T::lit(1.7) * a_coupler_y_with_coupler_u
+                + T::lit(0.2) * a_coupler_x_with_coupler_v
+                - T::lit(1.7) * a_coupler_y_with_coupler_u
                 + T::lit(13.355) * u_coupler_xy;
             let ([multiplier_2, multiplier_1], _) = ::multibody::linear::solve(
                 [
@@ -1229,35 +1223,35 @@ pub mod four_bar {
                         + T::lit(9.0) * rocker_accel_with_root_rocker),
                 ],
             );
-            let f_coupler_x_with_u_coupler_xy = T::lit(0.7) * u_coupler_xy
-                - a_coupler_x_with_coupler_v - energy_with_sin_crank * multiplier_1
+            let f_coupler_x_with_u_coupler_xy = a_coupler_x_with_coupler_v
+                + T::lit(0.7) * u_coupler_xy - energy_with_sin_crank * multiplier_1
                 - energy_with_coupler_u * multiplier_2 + f_coupler_x_with_w2_coupler_z;
-            let minus_f_coupler_y_with_u_coupler_xy = a_coupler_y_with_coupler_u
-                + T::lit(5.95) * u_coupler_xy - energy_with_coupler_u * multiplier_1
+            let minus_f_coupler_y_with_u_coupler_xy = T::lit(5.95) * u_coupler_xy
+                - a_coupler_y_with_coupler_u - energy_with_coupler_u * multiplier_1
                 + energy_with_sin_crank * multiplier_2 + f_coupler_y_with_w2_coupler_z;
             // Results.
             let energy_with_w2_crank_z = w2_crank_z
                 + T::lit(3.483913043478261) * w2_coupler_z
-                + T::lit(2.347826086956522) * minus_w_rocker_z * minus_w_rocker_z
+                + T::lit(2.347826086956522) * w_rocker_z * w_rocker_z
                 + w_coupler_z
                     * (T::lit(0.10434782608695652) * crank_rate_times_minus_coupler_v
                         + T::lit(0.8869565217391304) * v.crank * coupler_u);
-            let minus_energy = T::lit(9.81)
-                * (energy_with_rocker_a - T::lit(0.7) * energy_with_sin_crank
-                    - T::lit(5.95) * energy_with_coupler_u) - T::lit(44.145) * sin_rocker
-                - T::lit(4.0) * energy_with_cos_crank_minus_0_5
+            let energy = T::lit(39.24) * sin_crank + T::lit(44.145) * sin_rocker
+                + T::lit(6.867)
+                    * (energy_with_sin_crank + T::lit(8.5) * energy_with_coupler_u)
+                + T::lit(4.0) * energy_with_cos_crank_minus_0_5
                     * energy_with_cos_crank_minus_0_5
-                - T::lit(1.9166666666666667) * energy_with_w2_crank_z;
+                + T::lit(1.9166666666666667) * energy_with_w2_crank_z;
             Output {
                 angles: [
                     q.crank,
                     -Real::atan2(minus_coupler_v_times_0_286, coupler_u_times_0_286),
                     Real::atan2(sin_rocker, cos_rocker),
                 ],
-                rates: [v.crank, -minus_coupler_rate, -minus_w_rocker_z],
+                rates: [v.crank, -minus_coupler_rate, w_rocker_z],
                 accels: [
                     -minus_dw_crank_z,
-                    -minus_coupler_accel,
+                    coupler_accel,
                     rocker_accel_with_root_rocker,
                 ],
                 reactions: [
@@ -1276,7 +1270,7 @@ pub mod four_bar {
                         T::lit(0.0),
                     ]),
                 ],
-                energy: -minus_energy,
+                energy,
             }
         }
         /// Distances from dead centres, in the order of `DEAD_CENTRES`. Of a loop's solution: its square root, a product of lengths, zero where two solutions meet and NaN where the loop cannot be closed. Of roll, pitch and yaw: the cosine of the pitch, zero where roll and yaw turn about one axis. Rates grow without bound there.
@@ -1292,8 +1286,8 @@ pub mod four_bar {
         ) -> ::multibody::nalgebra::SVector<T, 1> {
             // Closed form of rocker.
             let (sin_crank, cos_crank) = Real::sin_cos(q.crank);
-            let cos_crank_minus_4 = cos_crank - T::lit(4.0);
-            let rocker_d = cos_crank_minus_4 * cos_crank_minus_4 + sin_crank * sin_crank;
+            let minus_rocker_a = cos_crank - T::lit(4.0);
+            let rocker_d = minus_rocker_a * minus_rocker_a + sin_crank * sin_crank;
             let minus_rocker_c = T::lit(0.16666666666666666) * rocker_d
                 - T::lit(0.5416666666666666);
             ::multibody::nalgebra::SVector::from([
@@ -1304,7 +1298,7 @@ pub mod four_bar {
         ///
         /// Method: closed forms, determinants.
         ///
-        /// Operations: 6 add, 8 mul, 1 sqrt, 1 sincos; as derived, before optimisation: 6 add, 11 mul, 1 sqrt, 1 sincos.
+        /// Operations: 6 add, 8 mul, 1 sqrt, 1 sincos; as derived, before optimisation: 6 add, 12 mul, 1 sqrt, 1 sincos.
         #[must_use]
         pub fn margins(
             &self,
@@ -1315,15 +1309,14 @@ pub mod four_bar {
             let v = &state.v;
             // Closed form of rocker.
             let (sin_crank, cos_crank) = Real::sin_cos(q.crank);
-            let cos_crank_minus_4 = cos_crank - T::lit(4.0);
-            let rocker_d = cos_crank_minus_4 * cos_crank_minus_4 + sin_crank * sin_crank;
+            let minus_rocker_a = cos_crank - T::lit(4.0);
+            let rocker_d = minus_rocker_a * minus_rocker_a + sin_crank * sin_crank;
             let minus_rocker_c = T::lit(0.16666666666666666) * rocker_d
                 - T::lit(0.5416666666666666);
             ::multibody::nalgebra::SVector::from([
                 Real::sqrt(rocker_d - minus_rocker_c * minus_rocker_c),
-                (-v.crank * sin_crank
-                    * (T::lit(2.0) - T::lit(0.6666666666666666) * minus_rocker_c)
-                    * (cos_crank_minus_4 - cos_crank)),
+                (v.crank * sin_crank * (cos_crank - minus_rocker_a)
+                    * (T::lit(2.0) - T::lit(0.6666666666666666) * minus_rocker_c)),
             ])
         }
     }
@@ -1517,7 +1510,7 @@ pub mod four_bar {
         },
         ::multibody::Cost {
             function: "forward_dynamics",
-            add: 77,
+            add: 78,
             mul: 132,
             div: 4,
             sqrt: 2,
@@ -1526,8 +1519,8 @@ pub mod four_bar {
         },
         ::multibody::Cost {
             function: "inverse_dynamics",
-            add: 75,
-            mul: 120,
+            add: 73,
+            mul: 117,
             div: 3,
             sqrt: 2,
             sincos: 1,
@@ -1553,8 +1546,8 @@ pub mod four_bar {
         },
         ::multibody::Cost {
             function: "outputs",
-            add: 182,
-            mul: 216,
+            add: 179,
+            mul: 213,
             div: 10,
             sqrt: 2,
             sincos: 1,
@@ -1583,8 +1576,8 @@ pub mod four_bar {
     pub const DERIVED: &[::multibody::Cost] = &[
         ::multibody::Cost {
             function: "forward_dynamics",
-            add: 89,
-            mul: 182,
+            add: 93,
+            mul: 192,
             div: 4,
             sqrt: 2,
             sincos: 1,
@@ -1593,7 +1586,7 @@ pub mod four_bar {
         ::multibody::Cost {
             function: "inverse_dynamics",
             add: 82,
-            mul: 160,
+            mul: 163,
             div: 3,
             sqrt: 2,
             sincos: 1,
@@ -1602,7 +1595,7 @@ pub mod four_bar {
         ::multibody::Cost {
             function: "mass_matrix",
             add: 28,
-            mul: 48,
+            mul: 50,
             div: 2,
             sqrt: 1,
             sincos: 1,
@@ -1610,8 +1603,8 @@ pub mod four_bar {
         },
         ::multibody::Cost {
             function: "bias",
-            add: 73,
-            mul: 152,
+            add: 76,
+            mul: 158,
             div: 3,
             sqrt: 2,
             sincos: 1,
@@ -1619,8 +1612,8 @@ pub mod four_bar {
         },
         ::multibody::Cost {
             function: "outputs",
-            add: 209,
-            mul: 282,
+            add: 210,
+            mul: 291,
             div: 10,
             sqrt: 2,
             sincos: 1,
@@ -1638,7 +1631,7 @@ pub mod four_bar {
         ::multibody::Cost {
             function: "margins",
             add: 6,
-            mul: 11,
+            mul: 12,
             div: 0,
             sqrt: 1,
             sincos: 1,

@@ -387,7 +387,10 @@ impl Work<'_> {
 
     /// The row that gives the pivot, of those that compete.
     fn winner(&mut self, column: usize, rows: &[usize]) -> Option<usize> {
-        if let Some(best) = rows.first().and_then(|_| largest(self.g, &mut self.rows, column, rows)) {
+        if rows.is_empty() {
+            return None;
+        }
+        if let Some(best) = largest(self.g, &mut self.rows, column, rows) {
             return Some(best);
         }
         // Pairs, then pairs of winners: as many comparisons as one row against all others, and few that wait for each other.

@@ -320,6 +320,9 @@ fn loads_that_begin_smoothly() {
         assert!(try_case(&lifted(axis, course)).is_err(), "{course}");
         assert!(try_case(&lifted("Y", course)).is_ok(), "{course}");
         assert!(try_case(&lifted(axis, "0.3 * t")).is_ok());
+        let held = lifted(axis, course).replace("#[cut]", "");
+        let held = format!("formulation {{ coordinates: Absolute(Quaternion), constraints: Multipliers }} {held}");
+        assert!(try_case(&held).is_err(), "{course}");
     }
 }
 
@@ -378,6 +381,76 @@ fn loads_of_any_size() {
     assert!(micro("0.0"));
 }
 
+/// What a load is beside others is not what it is beside terms that cancel, as those of a stiff spring do.
+#[test]
+fn stiff_springs_hide_no_load() {
+    let read = "output load = two.reaction;";
+    let spring = "force s: SpringDamper { between: [a.at(0.99 * X), b.at(0.01 * Y)], stiffness: 1e4, damping: 10.0, length: 0.01 }";
+    let text = |across: &str| pushed(across, "0.0", &format!("{spring} {read}"));
+    assert!(try_case(&text("[0.0, -9.81, 3.0]")).is_err());
+    assert!(try_case(&text("-9.81 * Y")).is_ok());
+    let [n, x, y] = typed();
+    let spring = format!(
+        "force s: SpringDamper {{ between: [link.at({:?}), ground.at({:?})], stiffness: 2e8, damping: 0.0, length: 0.2 }}",
+        [0, 1, 2].map(|k| 0.3 * x[k] + 0.4 * y[k]),
+        [0, 1, 2].map(|k| x[k] + 2.0 * y[k])
+    );
+    for (direction, is_fine) in [(n, false), (x, true)] {
+        let push = format!(
+            "force push: Force {{ at: link, value: {direction:?}, axes: ground }} output load = coupler.reaction;"
+        );
+        let text = bars(&typed(), FORMULATIONS[1], 0.0, &format!("{spring} {push}"));
+        assert_eq!(try_case(&text).is_ok(), is_fine, "{direction:?}");
+    }
+}
+
+/// Of functions of what is zero in the plane, those that are not zero themselves load it; and roots, which have no value everywhere, hide nothing.
+#[test]
+fn values_at_zero_and_roots() {
+    let push = |amount: &str| {
+        format!("input u; force push: Force {{ at: b, value: {amount}, axes: ground }} output load = two.reaction;")
+    };
+    let absolute = |amount: &str| {
+        let text = pushed("-9.81 * Y", "0.0", &push(amount)).replace("#[cut]", "");
+        try_case(&format!("formulation {{ coordinates: Absolute(Quaternion), constraints: Multipliers }} {text}"))
+            .is_ok()
+    };
+    assert!(!absolute("exp(-powi(b.position.z, 2)) * Z"));
+    assert!(absolute("(exp(b.position.z) - 1.0) * Z"));
+    assert!(absolute("powf(max(b.position.z, 0.0), 1.5) * Z"));
+    let joints = |amount: &str| try_case(&pushed("-9.81 * Y", "0.0", &push(amount))).is_ok();
+    for amount in [
+        "sqrt(1.0 - powi(tanh(one.rate / 1e-3), 2)) * Y + max(one.angle - 30.0, 0.0)",
+        "sqrt(max(0.1 * (t - 200.0), 0.0)) * Y + max(t - 20.0, 0.0) * max(30.0 - t, 0.0)",
+        "sqrt(u) * Y + u * 1e-9",
+    ] {
+        assert!(!joints(&format!("{amount} * Z")), "{amount}");
+        assert!(joints(&format!("{amount} * X")), "{amount}");
+    }
+}
+
+/// A parallelogram that is declared flat, where its motions cross, hangs together by none while it rests.
+#[test]
+fn the_declared_pose_is_looked_at_in_motion() {
+    let text = |read: &str| {
+        format!(
+            "world {{ gravity: -9.81 * Y }}
+            body a {{ mass: 1.0, com: 0.5 * X, inertia: rod(1.0, 1.0, X) }}
+            body b {{ mass: 1.0, com: X, inertia: rod(1.0, 2.0, X) }}
+            body c {{ mass: 1.0, com: 0.5 * X, inertia: rod(1.0, 1.0, X) }}
+            joint one: Revolute {{ parent: ground, child: a, axis: Z }}
+            joint two: Revolute {{ parent: a.at(X), child: b, axis: Z }}
+            joint three: Revolute {{ parent: ground.at(2.0 * X), child: c, axis: Z }}
+            #[cut] joint four: Revolute {{ parent: b.at(2.0 * X), child: c.at(X), axis: Z }}
+            formulation {{ constraints: Multipliers }}
+            output read = {read}; emit forward_dynamics;"
+        )
+    };
+    let refused = try_case(&text("two.reaction.force")).err().expect("refused");
+    assert!(refused.contains("where coordinates are declared to stand"), "{refused}");
+    assert!(try_case(&text("one.reaction.force + three.reaction.force")).is_ok());
+}
+
 /// A plate that swings on parallel rods: three hold it, whichever, as long as it is level, and any four where it is not.
 #[test]
 fn the_declared_pose_is_looked_at() {
@@ -406,6 +479,10 @@ fn the_declared_pose_is_looked_at() {
         assert!(refused.contains("where coordinates are declared to stand"), "{refused}");
     }
     assert!(try_case(&text("plate.position", parallel)).is_ok());
+    let friction =
+        "force air: Force { at: plate, value: -0.2 * plate.velocity / norm(plate.velocity), axes: ground } output read";
+    let text_with_friction = text("r0.multiplier", parallel).replace("output read", friction);
+    assert!(try_case(&text_with_friction).is_err());
     // What all four bear together is known.
     let sum = "r0.multiplier + r1.multiplier + r2.multiplier + r3.multiplier";
     assert!(try_case(&text(sum, parallel)).is_ok());

@@ -36,9 +36,10 @@ use super::singular::dot;
 use super::tape::{Tape, Values};
 
 /// What is looked at, as programs for numbers.
+#[derive(Clone)]
 pub(super) struct Statics {
     tape: Tape,
-    /// The same for velocities and accelerations of drives: any will do, and these may be zero for long.
+    /// The same for what time does to velocities and accelerations, by drives and by constraints: any course will do, and some are zero for long.
     courses: Tape,
     rows: Vec<Row>,
     /// Places of rows that were not left out.
@@ -94,7 +95,7 @@ pub(super) enum Emphasis {
         of: usize,
     },
     Velocities,
-    /// Nothing moves: at a pose where motions cross, not all velocities that its equations allow can be.
+    /// Nothing moves that no drive moves: at a pose where motions cross, not all velocities that its equations allow can be.
     Rest,
 }
 
@@ -121,14 +122,8 @@ impl Roots {
 }
 
 impl Statics {
-    /// Where it `blends`, loads and outputs that are made of pieces are some of each piece.
-    pub(super) fn new(
-        model: &Model,
-        structure: &Structure,
-        writing: Writing,
-        outputs: &[&Output],
-        blends: bool,
-    ) -> Statics {
+    /// As they are, and with loads and outputs that are made of pieces as some of each piece.
+    pub(super) fn both(model: &Model, structure: &Structure, writing: Writing, outputs: &[&Output]) -> [Statics; 2] {
         let mut rows: Vec<Row> = closings(model)
             .into_iter()
             .flat_map(|closing| (0..row_count(model, closing)).map(move |index| Row { closing, index }))
@@ -171,9 +166,9 @@ impl Statics {
         let mut lowering = Lowering::new(&e.g);
         let lowered = lowering.run(&roots.0);
         let exact = rates.clone().chain(second.clone()).chain(courses_of(&driven)).collect::<Vec<usize>>();
-        let whole = Tape::new(&lowering.to, &lowered);
-        let [tape, courses] = [exact, Vec::new()]
-            .map(|exact| if blends { whole.clone().blended(exact.into_iter()) } else { whole.clone() });
+        let tape = Tape::new(&lowering.to, &lowered);
+        let blended = tape.clone().blended(exact.into_iter());
+        let courses = tape.clone().blended(std::iter::empty());
         let closing: HashSet<usize> = rates.clone().chain(second.clone()).flat_map(|root| tape.symbols(root)).collect();
         let of_drives: HashSet<usize> = courses_of(&driven).flat_map(|root| tape.symbols(root)).collect();
         let is_moved = |&k: &usize| match symbols.table[k] {
@@ -184,7 +179,7 @@ impl Statics {
         let is_position = |&k: &usize| matches!(symbols.table[k], Symbol::Position { .. });
         let free_time = number(&e, symbols.time).filter(|time| !closing.contains(time) && !of_drives.contains(time));
         let kept = (0..rows.len()).filter(|&k| !structure.dropped.contains(&rows[k])).collect();
-        Statics {
+        let plain = Statics {
             kept,
             velocities: in_places(&e, &symbols.velocities),
             accelerations: in_places(&e, &symbols.accelerations),
@@ -192,8 +187,8 @@ impl Statics {
             moved: (0..symbols.table.len()).filter(is_moved).collect(),
             positions: (0..symbols.table.len()).filter(is_position).collect(),
             free_time,
+            courses: tape.clone(),
             tape,
-            courses,
             rows,
             driven,
             efforts,
@@ -202,7 +197,9 @@ impl Statics {
             wrenches,
             outputs: read,
             values: Values::default(),
-        }
+        };
+        let blended = Statics { tape: blended, courses, ..plain.clone() };
+        [plain, blended]
     }
 
     pub(super) fn rows(&self) -> &[Row] {
@@ -226,7 +223,9 @@ impl Statics {
         let count = self.multipliers.iter().max().map_or(0, |most| most + 1).max(at.len());
         at.resize(count, 0.0);
         for &symbol in &self.moved {
-            at[symbol] = at[symbol] * (1.0 + 0.3 * random.next()) + 0.3 * random.next();
+            let (factor, more) = (1.0 + 0.3 * random.next(), 0.3 * random.next());
+            // What has a value by default keeps its sign and its size.
+            at[symbol] = if at[symbol] == 0.0 { more } else { at[symbol] * factor };
         }
         if let Some(time) = self.free_time {
             at[time] = LATE * random.next().abs();
@@ -244,7 +243,10 @@ impl Statics {
         }
         self.velocities.iter().for_each(|&symbol| at[symbol] = random.next());
         match emphasis {
-            Emphasis::Rest => self.velocities.iter().for_each(|&symbol| at[symbol] = 0.0),
+            Emphasis::Rest => {
+                self.velocities.iter().for_each(|&symbol| at[symbol] = 0.0);
+                self.move_along(&mut at)?;
+            }
             Emphasis::Velocities => {
                 self.move_along(&mut at)?;
                 self.velocities.iter().for_each(|&symbol| at[symbol] *= FAST);
@@ -254,7 +256,8 @@ impl Statics {
         }
         let columns: Vec<usize> = self.accelerations.iter().chain(&self.multipliers).copied().collect();
         let forces = self.linear(&at, self.efforts.clone(), &columns);
-        let closings = self.linear(&at, self.second.clone(), &columns);
+        let mut closings = self.linear(&at, self.second.clone(), &columns);
+        closings.1 = self.rest(&at, self.second.clone(), &columns);
         let freedoms = self.accelerations.len();
         let stress = stresses(&forces.0, freedoms, self.rows.len());
         let held: Vec<Vec<f64>> = unit(self.kept.iter().map(|&k| closings.0[k][..freedoms].to_vec()));
@@ -316,14 +319,29 @@ impl Statics {
 
     /// Velocities become the nearest ones that the equations allow.
     fn move_along(&mut self, at: &mut [f64]) -> Option<()> {
-        let (rows, rest) = self.linear_at(at, self.rates.clone(), &self.velocities.clone());
+        let (rows, _) = self.linear_at(at, self.rates.clone(), &self.velocities.clone());
+        let rest = self.rest(at, self.rates.clone(), &[]);
         let step = least(&rows, &rest);
         for (&symbol, step) in self.velocities.iter().zip(step) {
             at[symbol] -= step;
         }
-        self.tape.run_for(&mut self.values, at, self.rates.clone());
-        let left = self.rates.clone().map(|root| self.tape.value(&self.values, root).abs()).fold(0.0, f64::max);
+        let left = self.rest(at, self.rates.clone(), &[]).into_iter().map(f64::abs).fold(0.0, f64::max);
         (left < 1e-6).then_some(())
+    }
+
+    /// Roots with some symbols at zero, and with any courses of time: what is left of them where nothing moves.
+    fn rest(&mut self, at: &[f64], roots: Range<usize>, zero: &[usize]) -> Vec<f64> {
+        let (mut moving, mut still) = (at.to_vec(), at.to_vec());
+        zero.iter().for_each(|&symbol| moving[symbol] = 0.0);
+        let driven = self.driven.iter().map(|one| one.0).filter(|symbol| !self.positions.contains(symbol));
+        zero.iter().chain(&self.velocities).copied().chain(driven).for_each(|symbol| still[symbol] = 0.0);
+        let mut of = |tape: &Tape, at: &[f64]| -> Vec<f64> {
+            tape.run_for(&mut self.values, at, roots.clone());
+            roots.clone().map(|root| tape.value(&self.values, root)).collect()
+        };
+        let (mut rest, course, own) = (of(&self.tape, &moving), of(&self.courses, &still), of(&self.tape, &still));
+        rest.iter_mut().zip(course.iter().zip(own)).for_each(|(x, (course, own))| *x += course - own);
+        rest
     }
 
     /// Roots with accelerations and multipliers at zero, and their slopes.

@@ -7,7 +7,8 @@
 //! mixed then if each joint gives way alike in all directions, and it is least without any self-stress, however stiff one joint is beside another.
 //! So it is for the hinges of a planar loop that is loaded in its plane, whose mirror image it is: what carries nothing in truth is zero. All else
 //! would be what the choice of equations makes of it. Loads and outputs that are made of pieces (`max`, `select`) are looked at with some of
-//! each piece: what acts only beyond a stop would else be missed.
+//! each piece too: what acts only beyond a stop would else be missed. What rests on loads that are next to nothing is looked at again where each
+//! input and the like outweighs all else.
 
 use std::collections::HashSet;
 use std::rc::Rc;
@@ -38,9 +39,11 @@ const AMPLITUDES: [f64; 8] = [0.1, 0.1, 0.2, 0.2, 0.4, 0.4, 0.8, 0.8];
 const NOTHING: f64 = 1e-7;
 /// Beside what all loads are made of.
 const DIGITS: f64 = 1e-11;
+/// As often a sample is drawn that has no numbers.
+const DRAWS: usize = 8;
 /// In so many parts inputs, states and parameters count more than all else, one part after the other.
 const SHARES: usize = 24;
-/// Beside all terms that a change would be made of where nothing is closed.
+/// Beside all terms that a change would be made of where nothing is closed, or that loads are sums of.
 const ROUNDING: f64 = 1e-9;
 
 /// Self-stress: joints that it loads, and equations that hold it.
@@ -87,61 +90,18 @@ pub(super) fn complaints(model: &Model, structure: &Structure, writing: Writing)
         return Vec::new();
     }
     let mut samples = Samples::new(model, structure, writing, &outputs, &problem);
-    let here = declared.and_then(|point| samples.at(&point, Emphasis::Rest));
-    let of_declared = |number| Some((samples.verdict(here.as_ref()?, number).open()?, true));
-    let mut found: Vec<Option<(Open, bool)>> = (0..outputs.len()).map(of_declared).collect();
+    let mut found: Vec<Option<(Open, bool)>> = match declared {
+        Some(point) => samples.here(&point, outputs.len()).into_iter().map(|one| Some((one?, true))).collect(),
+        None => (0..outputs.len()).map(|_| None).collect(),
+    };
     if !certain {
         let poses = poses(model, &problem, structure);
-        let also = judged(&mut samples, &poses, outputs.len());
+        let also = samples.judged(&poses, outputs.len());
         found.iter_mut().zip(also).for_each(|(slot, open)| *slot = slot.take().or(open.map(|open| (open, false))));
     }
     let told = outputs.iter().zip(found);
     told.filter_map(|(output, open)| open.map(|(open, here)| complaint(model, structure, output, &open, here)))
         .collect()
-}
-
-/// What is open of each output at any of these poses.
-fn judged(samples: &mut Samples<'_>, poses: &[Point], outputs: usize) -> Vec<Option<Open>> {
-    let seen = poses.iter().filter_map(|point| Some((point, samples.at(point, Emphasis::None)?)));
-    let all: Vec<(&Point, Seen)> = seen.collect();
-    if all.is_empty() {
-        // Nothing is known of any.
-        return (0..outputs).map(|_| Some(Open::default())).collect();
-    }
-    let counts: Vec<usize> = all.iter().map(|(_, seen)| seen.sample.stress.len()).collect();
-    let typical: Vec<&(&Point, Seen)> =
-        all.iter().zip(&counts).filter(|one| is_typical(*one.1, &counts)).map(|one| one.0).collect();
-    let mut rests_on_zero = Vec::new();
-    let mut found: Vec<Option<Open>> = (0..outputs).map(|_| None).collect();
-    for (number, slot) in found.iter_mut().enumerate() {
-        for (_, seen) in &typical {
-            match samples.verdict(seen, number) {
-                Verdict::Determined => {}
-                Verdict::Unstressed => rests_on_zero.push(number),
-                Verdict::Open(open) => {
-                    *slot = Some(open);
-                    break;
-                }
-            }
-        }
-    }
-    rests_on_zero.retain(|&number| found[number].is_none());
-    rests_on_zero.dedup();
-    if rests_on_zero.is_empty() {
-        return found;
-    }
-    // What is zero there may be small alone.
-    let of = samples.moved().min(SHARES);
-    let shares = (0..of).map(|first| Emphasis::Share { first, of });
-    for (emphasis, (point, _)) in shares.chain([Emphasis::Velocities]).zip(typical.iter().cycle()) {
-        let Some(seen) = samples.at(point, emphasis) else { continue };
-        for &number in &rests_on_zero {
-            if found[number].is_none() {
-                found[number] = samples.verdict(&seen, number).open();
-            }
-        }
-    }
-    found
 }
 
 /// The same in other axes than the structure was found in.
@@ -209,20 +169,18 @@ fn is_typical(count: usize, all: &[usize]) -> bool {
 /// A sample, and which of the programs it came of.
 struct Seen {
     sample: Sample,
-    is_blended: bool,
+    program: usize,
 }
 
-/// Looks at poses: with blends of pieces, and with pieces as they are where the root of a blend has no value.
+/// Looks at poses, with pieces as they are and with blends of them.
 struct Samples<'a> {
-    blended: Statics,
-    plain: Option<Statics>,
-    model: &'a Model,
-    structure: &'a Structure,
-    writing: Writing,
-    outputs: &'a [&'a Output],
+    programs: [Statics; 2],
     problem: &'a Problem,
     random: Random,
 }
+
+const PLAIN: usize = 0;
+const BLENDED: usize = 1;
 
 impl<'a> Samples<'a> {
     fn new(
@@ -232,28 +190,80 @@ impl<'a> Samples<'a> {
         outputs: &'a [&'a Output],
         problem: &'a Problem,
     ) -> Samples<'a> {
-        let blended = Statics::new(model, structure, writing, outputs, true);
-        Samples { blended, plain: None, model, structure, writing, outputs, problem, random: Random(0x57E55) }
+        Samples { programs: Statics::both(model, structure, writing, outputs), problem, random: Random(0x57E55) }
     }
 
-    fn moved(&self) -> usize {
-        self.blended.moved()
-    }
-
-    fn at(&mut self, point: &Point, emphasis: Emphasis) -> Option<Seen> {
-        if let Some(sample) = self.blended.sample(self.problem, point, emphasis, &mut self.random) {
-            return Some(Seen { sample, is_blended: true });
-        }
-        let plain = self
-            .plain
-            .get_or_insert_with(|| Statics::new(self.model, self.structure, self.writing, self.outputs, false));
-        let sample = plain.sample(self.problem, point, emphasis, &mut self.random)?;
-        Some(Seen { sample, is_blended: false })
+    /// Again with other numbers where something has no value, as the root of an input has.
+    fn at(&mut self, point: &Point, emphasis: Emphasis, program: usize) -> Option<Seen> {
+        let (problem, random) = (self.problem, &mut self.random);
+        let statics = &mut self.programs[program];
+        let sample = (0..DRAWS).find_map(|_| statics.sample(problem, point, emphasis, random))?;
+        Some(Seen { sample, program })
     }
 
     fn verdict(&mut self, seen: &Seen, output: usize) -> Verdict {
-        let statics = if seen.is_blended { Some(&mut self.blended) } else { self.plain.as_mut() };
-        statics.map_or(Verdict::Determined, |statics| statics.verdict(&seen.sample, output))
+        self.programs[seen.program].verdict(&seen.sample, output, self.problem.size)
+    }
+
+    /// What is open of each output where all stands as it is declared, at rest and in motion.
+    fn here(&mut self, point: &Point, outputs: usize) -> Vec<Option<Open>> {
+        let ways =
+            [(Emphasis::Rest, PLAIN), (Emphasis::None, PLAIN), (Emphasis::Rest, BLENDED), (Emphasis::None, BLENDED)];
+        let all: Vec<Seen> =
+            ways.into_iter().filter_map(|(emphasis, program)| self.at(point, emphasis, program)).collect();
+        // Nothing is known where nothing has numbers.
+        let first = |number| match all.is_empty() {
+            true => Some(Open::default()),
+            false => all.iter().find_map(|seen| self.verdict(seen, number).open()),
+        };
+        (0..outputs).map(first).collect()
+    }
+
+    /// What is open of each output at any of these poses.
+    fn judged(&mut self, poses: &[Point], outputs: usize) -> Vec<Option<Open>> {
+        let mut all: Vec<(&Point, Seen)> = Vec::new();
+        for (number, point) in poses.iter().enumerate() {
+            let blended = self.at(point, Emphasis::None, BLENDED);
+            let is_plain = number % POSES == 0 || blended.is_none();
+            let plain = if is_plain { self.at(point, Emphasis::None, PLAIN) } else { None };
+            all.extend(blended.into_iter().chain(plain).map(|seen| (point, seen)));
+        }
+        if all.is_empty() {
+            return (0..outputs).map(|_| Some(Open::default())).collect();
+        }
+        let counts: Vec<usize> = all.iter().map(|(_, seen)| seen.sample.stress.len()).collect();
+        let typical: Vec<&(&Point, Seen)> =
+            all.iter().zip(&counts).filter(|one| is_typical(*one.1, &counts)).map(|one| one.0).collect();
+        let mut found: Vec<Option<Open>> = Vec::new();
+        let mut is_unstressed = vec![false; outputs];
+        for (number, unstressed) in is_unstressed.iter_mut().enumerate() {
+            let open = typical.iter().find_map(|(_, seen)| match self.verdict(seen, number) {
+                Verdict::Determined => None,
+                Verdict::Unstressed => {
+                    *unstressed = true;
+                    None
+                }
+                Verdict::Open(open) => Some(open),
+            });
+            found.push(open);
+        }
+        // What is zero there may be small alone.
+        let of = self.programs[BLENDED].moved().min(SHARES);
+        let shares = (0..of).map(|first| Emphasis::Share { first, of });
+        for (emphasis, (point, _)) in shares.chain([Emphasis::Velocities]).zip(typical.iter().cycle()) {
+            let in_doubt: Vec<usize> = (0..outputs).filter(|&k| is_unstressed[k] && found[k].is_none()).collect();
+            if in_doubt.is_empty() {
+                break;
+            }
+            let seen = self.at(point, emphasis, BLENDED).or_else(|| self.at(point, emphasis, PLAIN));
+            for number in in_doubt {
+                found[number] = match &seen {
+                    Some(seen) => self.verdict(seen, number).open(),
+                    None => Some(Open::default()),
+                };
+            }
+        }
+        found
     }
 }
 
@@ -264,7 +274,8 @@ impl Verdict {
 }
 
 impl Statics {
-    fn verdict(&mut self, sample: &Sample, output: usize) -> Verdict {
+    /// `size`: of the mechanism [m].
+    fn verdict(&mut self, sample: &Sample, output: usize, size: f64) -> Verdict {
         let multipliers = &sample.multipliers[0];
         let with = |stress: &[f64]| multipliers.iter().zip(stress).map(|(a, b)| a + b).collect::<Vec<f64>>();
         // With some of all self-stress, so that a product of loads is moved by any one of them.
@@ -286,7 +297,8 @@ impl Statics {
         let touched = |(_, wrenches): &(&Vec<f64>, Wrenches)| {
             let most = greatest(wrenches);
             let joints = wrenches.iter().enumerate();
-            joints.filter(|one| greatest(&vec![*one.1]) > NOTHING * most).map(|one| one.0).collect::<Vec<_>>()
+            let is_touched = |one: &(usize, &[[f64; 3]; 2])| one.1.iter().flatten().any(|x| x.abs() > NOTHING * most);
+            joints.filter(is_touched).map(|one| one.0).collect::<Vec<_>>()
         };
         let joints: HashSet<usize> = stresses.iter().flat_map(touched).collect();
         let is_zero = |multipliers: &Vec<f64>| {
@@ -294,7 +306,7 @@ impl Statics {
             let bounds = self.wrench_bounds(sample, multipliers);
             // Of what the stress is in: what hangs elsewhere may weigh more.
             let most = greatest(&joints.iter().filter_map(|&joint| loads.get(joint).copied()).collect());
-            stand_across(&loads, &bounds, &stresses) && self.bears_nothing(multipliers, &stresses, most)
+            stand_across(&loads, &bounds, &stresses, most, size) && self.bears_nothing(multipliers, &stresses, most)
         };
         if sample.multipliers.iter().all(is_zero) {
             return Verdict::Unstressed;
@@ -332,22 +344,28 @@ fn strained(stresses: &[(&Vec<f64>, Wrenches)]) -> Vec<usize> {
     (0..count).filter(|&k| stresses.iter().any(|(stress, _)| takes_part(stress, k))).collect()
 }
 
-/// Whether at each joint force and moment have no part along any of self-stress, beside what they are made of with nothing cancelled.
-fn stand_across(loads: &Wrenches, bounds: &Wrenches, stresses: &[(&Vec<f64>, Wrenches)]) -> bool {
-    // Forces and moments have units of their own.
+/// Whether at each joint force and moment have no part along any of self-stress: next to nothing beside the greatest load of their kind, and beside the
+/// terms that they are sums of there, which are small where what they stand for is.
+fn stand_across(loads: &Wrenches, bounds: &Wrenches, stresses: &[(&Vec<f64>, Wrenches)], most: f64, size: f64) -> bool {
+    let strained = stresses.iter().map(|one| greatest(&one.1)).fold(0.0, f64::max);
+    // Forces and moments have units of their own; of forces, with moments over the mechanism's size.
+    let of_kind = |part: usize| loads.iter().flat_map(move |w| w[part]).fold(0.0_f64, |most, x| most.max(x.abs()));
+    let scale = of_kind(0).max(of_kind(1) / size);
     [0, 1].into_iter().all(|part| {
-        let most = |wrenches: &Wrenches| wrenches.iter().flat_map(|w| w[part]).fold(0.0_f64, f64::max);
-        let strained = stresses.iter().map(|one| greatest(&one.1)).fold(0.0, f64::max);
-        let rounding = DIGITS * most(bounds);
-        loads.iter().zip(bounds).enumerate().all(|(joint, (load, bound))| {
+        let most_of =
+            |wrenches: &Wrenches| wrenches.iter().flat_map(|w| w[part]).fold(0.0_f64, |most, x| most.max(x.abs()));
+        let (load, terms) = (NOTHING * most_of(loads).min(most), DIGITS * most_of(bounds));
+        // All loads of a kind may be what rounding and loops that are open by it leave of the other kind.
+        let open = (ROUNDING * scale * [1.0, size][part]).min(NOTHING * most);
+        loads.iter().zip(bounds).enumerate().all(|(joint, (own, bound))| {
             let mut basis = Basis::default();
             for (_, wrenches) in stresses {
                 basis.grow(&wrenches[joint][part], NOTHING * strained);
             }
             basis.vectors().iter().all(|direction| {
-                let along: f64 = direction.iter().zip(load[part]).map(|(d, x)| d * x).sum();
+                let along: f64 = direction.iter().zip(own[part]).map(|(d, x)| d * x).sum();
                 let made_of: f64 = direction.iter().zip(bound[part]).map(|(d, x)| d.abs() * x).sum();
-                along.abs() <= NOTHING * made_of + rounding
+                along.abs() <= load + open && along.abs() <= NOTHING * made_of + terms
             })
         })
     })

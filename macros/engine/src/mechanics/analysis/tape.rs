@@ -22,8 +22,12 @@ enum Op {
     Blend(f64),
     /// The first operand less the second.
     Apart,
-    /// So much of the first operand, less of each further one.
-    Part(f64),
+    /// So much of the first operand, beside a constant.
+    Part(f64, f64),
+    /// A function of the user's own with some of each of its operands.
+    Beside(Call, f64),
+    /// The root of the size.
+    Root,
     /// What has no number here.
     Unknown,
 }
@@ -57,7 +61,7 @@ pub(super) struct Tape {
 }
 
 /// Working memory of one evaluation.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct Values {
     values: Vec<f64>,
     slopes: Vec<f64>,
@@ -122,8 +126,8 @@ impl Tape {
     }
 
     /// The same with some of each piece in place of one of them, whatever would choose: what acts beyond a stop acts a little. Functions that
-    /// are flat somewhere (`tanh`, `exp`), and those of the user's own, become parts of their arguments: a step that is smooth is as good as zero on
-    /// one side of it. What some `exact` roots need stays.
+    /// are flat somewhere (`tanh`, `exp`) become parts of their arguments, with what they are at zero, and those of the user's own have such parts beside
+    /// them: a step that is smooth is as good as zero on one side of it. Roots are those of sizes, so they have values. What some `exact` roots need stays.
     pub(super) fn blended(mut self, exact: impl Iterator<Item = usize>) -> Tape {
         let mut stays = vec![false; self.nodes.len()];
         for root in exact {
@@ -138,10 +142,14 @@ impl Tape {
             let share = 0.3 + 0.4 * (0.618_033_988_749_895 * k as f64).fract();
             node.op = match call {
                 Call::Min | Call::Max | Call::Select => Op::Blend(share),
-                Call::Abs | Call::Signum => Op::Part(share),
-                Call::External(_) if node.first < node.last => Op::Part(share),
-                Call::Exp | Call::Ln | Call::Powf | Call::Sinh | Call::Cosh | Call::Tanh => Op::Part(share),
-                Call::Asin | Call::Acos | Call::Atan | Call::Atan2 => Op::Part(share),
+                Call::Abs | Call::Signum | Call::Sinh | Call::Tanh | Call::Asin | Call::Atan => Op::Part(share, 0.0),
+                // The exponent, and what an angle is measured from, decide no zero.
+                Call::Powf | Call::Atan2 => Op::Part(share, 0.0),
+                Call::Exp | Call::Cosh | Call::Acos => Op::Part(share, 1.0),
+                // Of one it is zero.
+                Call::Ln => Op::Part(share, -share),
+                Call::External(_) => Op::Beside(call, share),
+                Call::Sqrt => Op::Root,
                 Call::And | Call::Or | Call::Not => Op::Sum,
                 Call::Less | Call::LessEqual | Call::Equal => Op::Apart,
                 _ => node.op,
@@ -183,7 +191,9 @@ impl Tape {
             Op::Call(Call::Min | Call::Max | Call::Select | Call::Abs | Call::Signum | Call::Nan)
             | Op::Blend(_)
             | Op::Apart
-            | Op::Part(_)
+            | Op::Part(..)
+            | Op::Beside(..)
+            | Op::Root
             | Op::Unknown => false,
             Op::Call(call) => !call.is_comparison(),
             Op::Literal(_) | Op::Symbol(_) | Op::Sum | Op::Product | Op::Reciprocal | Op::Sin | Op::Cos => true,
@@ -248,7 +258,14 @@ impl Tape {
                 let share = share + before.iter().map(|mask| MASK * operand(list, mask)).sum::<f64>();
                 share * operand(list, a) + (1.0 - share) * operand(list, b)
             }
-            Op::Part(share) => operands.iter().zip(parts(share)).map(|(edge, part)| part * operand(list, edge)).sum(),
+            Op::Part(share, constant) => constant + share * operand(list, &operands[0]),
+            Op::Beside(call, share) => {
+                let x = arguments(list, operands);
+                let beside: f64 =
+                    operands.iter().zip(parts(share)).map(|(edge, part)| part * operand(list, edge)).sum();
+                call_f64(call, &x[..operands.len().min(3)]) + beside
+            }
+            Op::Root => operand(list, &operands[0]).abs().sqrt(),
             Op::Apart => operand(list, &operands[0]) - operands.get(1).map_or(f64::NAN, |edge| operand(list, edge)),
             Op::Call(call) => {
                 let mut x = [0.0; 3];
@@ -327,7 +344,18 @@ impl Tape {
                         }
                     }
                 }
-                Op::Part(share) => {
+                Op::Part(share, _) => {
+                    if let Some(edge) = operands.first() {
+                        slopes[edge.node] += edge.sign * slope * share;
+                    }
+                }
+                Op::Root => {
+                    if let Some(edge) = operands.first() {
+                        let sign = operand(values, edge).signum();
+                        slopes[edge.node] += edge.sign * slope * sign * 0.5 / values[index];
+                    }
+                }
+                Op::Beside(_, share) => {
                     for (edge, part) in operands.iter().zip(parts(share)) {
                         slopes[edge.node] += edge.sign * slope * part;
                     }
@@ -374,7 +402,8 @@ impl Tape {
             for (k, edge) in operands.iter().enumerate() {
                 let factor = match node.op {
                     Op::Literal(_) | Op::Symbol(_) | Op::Unknown => 0.0,
-                    Op::Sum | Op::Sin | Op::Cos | Op::Apart | Op::Part(_) => 1.0,
+                    Op::Sum | Op::Sin | Op::Cos | Op::Apart | Op::Part(..) | Op::Beside(..) => 1.0,
+                    Op::Root => 0.5 / values[index].abs(),
                     Op::Blend(_) => {
                         let mut all: Vec<f64> = operands.iter().map(|edge| sizes[edge.node]).collect();
                         all[k] = 1.0;
@@ -398,9 +427,9 @@ impl Tape {
         }
     }
 
-    /// After `run`: what a root is made of, with nothing cancelled, sines and cosines taken as one.
+    /// After `run`: what a root is made of: the sum of the sizes of all its terms, none cancelled, sines and cosines taken as one.
     pub(super) fn size_bound(&self, values: &Values, root: usize) -> f64 {
-        self.sizes(values, root).last().copied().unwrap_or(0.0)
+        self.sizes(values, root).last().copied().filter(|size| size.is_finite()).unwrap_or(0.0)
     }
 
     /// By node up to that of the root.
@@ -419,7 +448,10 @@ impl Tape {
                 Op::Reciprocal => size(0) * values[index] * values[index],
                 Op::Sin | Op::Cos => 1.0,
                 Op::Blend(_) => blend_bound(&operands.iter().map(|edge| sizes[edge.node]).collect::<Vec<_>>()),
-                Op::Apart | Op::Part(_) => (0..operands.len()).map(size).sum(),
+                Op::Apart => (0..operands.len()).map(size).sum(),
+                Op::Part(_, constant) => constant.abs() + size(0),
+                Op::Beside(..) => values[index].abs() + (0..operands.len()).map(size).sum::<f64>(),
+                Op::Root => values[index].abs() + 0.5 / values[index].abs() * size(0),
                 Op::Call(call) => {
                     let x = arguments(values, operands);
                     let slope = |k: usize| call_slope(call, &x, k, values[index]).abs();
@@ -446,7 +478,7 @@ fn arguments(values: &[f64], operands: &[Edge]) -> [f64; 3] {
     [0, 1, 2].map(|k| operands.get(k).map_or(f64::NAN, |edge| operand(values, edge)))
 }
 
-/// What counts of the operands of a part.
+/// How much counts of each operand.
 fn parts(share: f64) -> impl Iterator<Item = f64> {
     std::iter::successors(Some(share), move |part| Some(share * part))
 }
