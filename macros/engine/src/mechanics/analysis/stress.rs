@@ -388,14 +388,17 @@ fn complaint(model: &Model, structure: &Structure, output: &Output, open: &Open,
         true => "equations of loops depend on each other".to_owned(),
         false => format!("{} follow{} from other equations", rows.join(", "), if rows.len() == 1 { "s" } else { "" }),
     };
+    let help = match declared {
+        true => "read what is determined there too, or place frames so that coordinates are zero in another pose",
+        false => {
+            "read what is determined, such as components in the plane of a loop (`.express(frame)`), or let its joints hold no more than they \
+             have to: a loop of four hinges where one is a `Ball` and one is `Cylindrical`"
+        }
+    };
     Complaint {
         at,
         message: format!("{what} depends on how loops share their load, which rigid bodies don't determine: {why}"),
-        help: Some(
-            "read what is determined, such as components in the plane of a loop (`.express(frame)`), or let its joints hold no more than they \
-             have to: a loop of four hinges where one is a `Ball` and one is `Cylindrical`"
-                .to_owned(),
-        ),
+        help: Some(help.to_owned()),
     }
 }
 
