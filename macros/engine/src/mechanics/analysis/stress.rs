@@ -124,12 +124,13 @@ fn poses(model: &Model, problem: &Problem, structure: &Structure) -> Vec<Point> 
     poses
 }
 
-/// The pose that is declared, where it closes all loops.
+/// The pose that is declared, where it closes all loops, and equations have slopes, which those of a disc that lies flat have not.
 fn declared(problem: &Problem) -> Option<Point> {
     let equations: Vec<usize> = (0..problem.equations.len()).collect();
     let columns: Vec<usize> = (0..problem.columns.len()).collect();
     let driven = problem.driven_columns();
-    configurations::declared(problem, &Search::new(problem, &equations, &columns).holding(&driven))
+    let point = configurations::declared(problem, &Search::new(problem, &equations, &columns).holding(&driven))?;
+    problem.has_slopes(&point, &mut Values::default()).then_some(point)
 }
 
 /// Whether equations that don't follow from others elsewhere do so at a pose.
