@@ -17,9 +17,8 @@ pub const MULTIPLIERS: &CStr =
 extern "C" fn peers_states(robot: *const c_char, states: *mut f64, length: *mut usize) -> usize {
     // SAFETY: the interface.
     let robot = unsafe { CStr::from_ptr(robot) };
-    let (count, all) = crate::unit::states(robot).unwrap_or_else(|| {
-        (COUNT, crate::trees::states(robot).unwrap_or_else(|| crate::closed::states(robot)))
-    });
+    let (count, all) = crate::unit::states(robot)
+        .unwrap_or_else(|| (COUNT, crate::trees::states(robot).unwrap_or_else(|| crate::closed::states(robot))));
     // SAFETY: the interface.
     unsafe {
         *length = all.len() / count;
