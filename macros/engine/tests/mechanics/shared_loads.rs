@@ -345,6 +345,14 @@ fn loads_of_any_size() {
         let text = bars(&typed(), FORMULATIONS[1], 0.0, &items);
         assert_eq!(try_case(&text).is_ok(), is_fine, "{direction:?}");
     }
+    // What grows with velocities faster than all else.
+    for (direction, is_fine) in [(n, false), (x, true)] {
+        let push = format!(
+            "force push: Force {{ at: link, value: 1e-14 * powi(crank.rate, 6) * {direction:?}, axes: ground }}"
+        );
+        let text = bars(&typed(), FORMULATIONS[1], 0.0, &format!("{push} {ALL}"));
+        assert_eq!(try_case(&text).is_ok(), is_fine, "{direction:?}");
+    }
     let rotor = |axis: &str| {
         let items = format!(
             "body rotor {{ mass: 0.0, inertia: diag(1e-7, 1e-7, 1e-7) }}
@@ -478,7 +486,6 @@ fn the_declared_pose_is_looked_at() {
         let refused = try_case(&text(read, parallel)).err().expect("refused");
         assert!(refused.contains("where coordinates are declared to stand"), "{refused}");
     }
-    assert!(try_case(&text("plate.position", parallel)).is_ok());
     let friction =
         "force air: Force { at: plate, value: -0.2 * plate.velocity / norm(plate.velocity), axes: ground } output read";
     let text_with_friction = text("r0.multiplier", parallel).replace("output read", friction);

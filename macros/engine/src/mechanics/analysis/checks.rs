@@ -181,9 +181,7 @@ impl Analysis<'_> {
                     .into_iter()
                     .map(|coordinate| format!("`{}`", coordinate_name(self.model, coordinate)))
                     .collect();
-                let message =
-                    format!("the drive prescribes what follows from the loops and other drives: {}", names.join(", "));
-                self.complain(drive.site(), message, Some("drive as many coordinates as the mechanism has freedoms"));
+                self.complain_needless_drive(drive.site(), &names.join(", "));
                 return false;
             }
         }
@@ -202,10 +200,13 @@ impl Analysis<'_> {
         }
         for constraint in needless {
             let Some(coordinate) = constraint.drive else { continue };
-            let name = coordinate_name(self.model, coordinate);
-            let message = format!("the drive prescribes what follows from the loops and other drives: `{name}`");
-            self.complain(constraint.site(), message, Some("drive as many coordinates as the mechanism has freedoms"));
+            self.complain_needless_drive(constraint.site(), &format!("`{}`", coordinate_name(self.model, coordinate)));
         }
+    }
+
+    fn complain_needless_drive(&mut self, at: Site, names: &str) {
+        let message = format!("the drive prescribes what follows from the loops and other drives: {names}");
+        self.complain(at, message, Some("drive as many coordinates as the mechanism has freedoms"));
     }
 
     /// Position and orientation of a joint with a quaternion are in the state as a whole or not at all.

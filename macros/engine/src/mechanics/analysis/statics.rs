@@ -39,7 +39,8 @@ use super::tape::{Tape, Values};
 #[derive(Clone)]
 pub(super) struct Statics {
     tape: Tape,
-    /// The same for what time does to velocities and accelerations, by drives and by constraints: any course will do, and some are zero for long.
+    /// The same with flat functions of time replaced too: velocities and accelerations that drives and constraints prescribe are taken from it, since
+    /// any course will do and the declared one may stand still for long.
     courses: Tape,
     rows: Vec<Row>,
     /// Places of rows that were not left out.
@@ -84,8 +85,7 @@ pub(super) struct Slopes {
     anywhere: Vec<f64>,
 }
 
-/// What counts more than all else in a sample, by this much: loads that are small beside others where inputs and parameters are about one may be all that
-/// counts where these are not.
+/// What is made large in a sample: loads that are small beside others while inputs and parameters are about one may outweigh them elsewhere.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Emphasis {
     None,
@@ -99,7 +99,7 @@ pub(super) enum Emphasis {
     Rest,
 }
 
-/// Of inputs and the like, and of velocities, which count twice.
+/// Factors of inputs and the like, and of velocities, with whose squares most loads grow.
 const EMPHASIS: f64 = 1e6;
 const FAST: f64 = 1e3;
 

@@ -135,13 +135,9 @@ fn declared(problem: &Problem) -> Option<Point> {
 
 /// Whether equations that don't follow from others elsewhere do so at a pose.
 fn is_singular(problem: &Problem, structure: &Structure, point: &Point) -> bool {
-    let kept = |row: &Row| !structure.dropped.contains(row);
-    rank_at(problem, structure, point) < shared::all(problem, structure, point).0.iter().filter(|row| kept(row)).count()
-}
-
-fn rank_at(problem: &Problem, structure: &Structure, point: &Point) -> usize {
-    let rows = shared::all(problem, structure, point).1;
-    rank::of(&rows, &(0..rows.len()).collect::<Vec<usize>>())
+    let (names, rows) = shared::all(problem, structure, point);
+    let kept = names.iter().filter(|row| !structure.dropped.contains(row)).count();
+    rank::of(&rows, &(0..rows.len()).collect::<Vec<usize>>()) < kept
 }
 
 fn further_poses(problem: &Problem, amplitudes: &[f64]) -> Vec<Point> {
@@ -345,8 +341,9 @@ fn strained(stresses: &[(&Vec<f64>, Wrenches)]) -> Vec<usize> {
     (0..count).filter(|&k| stresses.iter().any(|(stress, _)| takes_part(stress, k))).collect()
 }
 
-/// Whether at each joint force and moment have no part along any of self-stress: next to nothing beside the greatest load of their kind, and beside the
-/// terms that they are sums of there, which are small where what they stand for is.
+/// Whether at no joint force or moment has a part along any of self-stress. Such a part counts as nothing if it is small beside the greatest load of
+/// its kind, and also beside the sum of the sizes of its own terms (`bounds`): that sum is large where stiff springs cancel, and as small as the
+/// part itself where nothing else acts in its direction, so neither is enough alone.
 fn stand_across(loads: &Wrenches, bounds: &Wrenches, stresses: &[(&Vec<f64>, Wrenches)], most: f64, size: f64) -> bool {
     let strained = stresses.iter().map(|one| greatest(&one.1)).fold(0.0, f64::max);
     // Forces and moments have units of their own; of forces, with moments over the mechanism's size.
