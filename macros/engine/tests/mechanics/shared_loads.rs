@@ -353,6 +353,23 @@ fn loads_of_any_size() {
         let text = bars(&typed(), FORMULATIONS[1], 0.0, &format!("{push} {ALL}"));
         assert_eq!(try_case(&text).is_ok(), is_fine, "{direction:?}");
     }
+    // What grows so fast that it has no numbers where an input is made large, and is nothing with the other sign; and what is next to nothing on one side
+    // alone.
+    for amount in ["exp(u / 0.026) - 1.0", "exp(-u / 0.026)", "exp(u)", "exp(-u / 26.0)", "sinh(u)"] {
+        for (direction, is_fine) in [(n, false), (x, true)] {
+            let items =
+                format!("{} {ALL}", push(&format!("1e-14 * ({amount}) * {direction:?}")).replace("at: b", "at: link"));
+            let text = bars(&typed(), FORMULATIONS[1], 0.0, &items);
+            assert_eq!(try_case(&text).is_ok(), is_fine, "{amount} {direction:?}");
+        }
+    }
+    for amount in ["sqrt(u * u + 1.0) - u", "sqrt(u * u + 1.0) + u"] {
+        for (direction, is_fine) in [("Z", false), ("Y", true)] {
+            let text =
+                pushed("-9.81 * Y", "0.0", &format!("{} {read}", push(&format!("1e-11 * ({amount}) * {direction}"))));
+            assert_eq!(try_case(&text).is_ok(), is_fine, "{amount} {direction}");
+        }
+    }
     let rotor = |axis: &str| {
         let items = format!(
             "body rotor {{ mass: 0.0, inertia: diag(1e-7, 1e-7, 1e-7) }}

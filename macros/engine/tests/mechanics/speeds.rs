@@ -75,6 +75,22 @@ fn what_constraints_leave() {
     assert_eq!((chosen.rates.held.len(), chosen.rates.unknowns.len()), (1, 2));
 }
 
+/// Two blades in line let a body move along them alone. Where it is declared to stand that is along one axis of its plane, of which the other says nothing.
+#[test]
+fn velocities_hold_where_coordinates_are_declared_to_stand() {
+    for (along, kept) in [("X", "plane.x"), ("Y", "plane.y")] {
+        let items = format!(
+            "formulation {{ constraints: Reduced }}
+            body sled {{ mass: 5.0, com: 0.1 * X, inertia: diag(1.0, 1.1, 1.2) }}
+            joint plane: Planar {{ parent: ground, child: sled, axis: Z }}
+            constraint front: Skate {{ blade: sled.at(0.5 * {along}), along: {along} }}
+            constraint rear: Skate {{ blade: sled.at(-0.5 * {along}), along: {along} }}"
+        );
+        let (model, structure) = structure(&items);
+        assert_eq!(names(&model, structure.speeds()), [kept]);
+    }
+}
+
 /// All velocities are speeds, of which constraints make one zero: it isn't there.
 #[test]
 fn redundant_blades() {

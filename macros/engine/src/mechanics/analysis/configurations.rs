@@ -180,6 +180,15 @@ pub(super) fn declared(problem: &Problem, search: &Search<'_>) -> Option<Point> 
     (search.close(&mut point, &mut Values::default()) && moved(&point) <= TYPED).then_some(point)
 }
 
+/// The declared pose, where it closes all loops, and equations have slopes, which those of a disc that lies flat have not.
+pub(super) fn start(problem: &Problem) -> Option<Point> {
+    let equations: Vec<usize> = (0..problem.equations.len()).collect();
+    let columns: Vec<usize> = (0..problem.columns.len()).collect();
+    let driven = problem.driven_columns();
+    let point = declared(problem, &Search::new(problem, &equations, &columns).holding(&driven))?;
+    problem.has_slopes(&point, &mut Values::default()).then_some(point)
+}
+
 /// The declared pose, if it is closed and of the rank that the samples have.
 pub(super) fn home(problem: &Problem, equations: &[usize], columns: &[usize], found: &Found) -> Option<Configuration> {
     let search = Search::new(problem, equations, columns);

@@ -4,7 +4,8 @@
 //! from them. At any configuration the equations of positions J and those of velocities A that are eliminated, without those that keep
 //! multipliers, and the speeds U leave the rest of all motions free. Rates of as many coordinates as that has dimensions are velocities too: those for which the
 //! volume that the rest spans in them is greatest where it is least, over all configurations (of an orthonormal basis of the rest, the
-//! determinant of their rows), so that the equations for the other rates are as far from singular as any choice leaves them.
+//! determinant of their rows), so that the equations for the other rates are as far from singular as any choice leaves them. Choices that
+//! are singular where coordinates are declared to stand are taken only if all are.
 //!
 //! A speed takes the place of rates that it reads. Where speeds leave more rates open than there are coordinates that none of them reads,
 //! which rate is to stay a velocity is the user's to say.
@@ -15,6 +16,7 @@ use crate::model::site::Sited;
 use crate::model::types::{Coordinate, Handling, Model, Request};
 
 use super::Complaint;
+use super::configurations;
 use super::orthonormal::{complement, unit, without};
 use super::problem::{Point, Problem, Source};
 use super::rates::points;
@@ -42,10 +44,11 @@ pub(super) fn choose(model: &Model, problem: &Problem, structure: &mut Structure
     }
     let points = points(problem, structure);
     let before = structure.clone();
-    let choice = Choice { model, problem, structure: &before, points: &points };
+    let start = configurations::start(problem);
+    let choice = Choice { model, problem, structure: &before, points: &points, start: start.as_ref() };
     let rows = choice.motions(false);
     let free: Vec<Coordinate> = before.state.clone();
-    let Some((held, mut size)) = rows.and_then(|rests| choice.others(&rests, &free)) else {
+    let Some((held, mut size)) = rows.and_then(|rests| choice.others(&rests, &free, false)) else {
         return vec![choice.dependent_rows()];
     };
     structure.rates.held.clone_from(&held);
@@ -57,7 +60,7 @@ pub(super) fn choose(model: &Model, problem: &Problem, structure: &mut Structure
         }
         let read = choice.read();
         let open: Vec<Coordinate> = free.iter().copied().filter(|coordinate| !read.contains(coordinate)).collect();
-        let Some((others, left)) = choice.others(&rests, &open) else { return vec![choice.too_few()] };
+        let Some((others, left)) = choice.others(&rests, &open, true) else { return vec![choice.too_few()] };
         (structure.rates.unknowns, size) = (others, left);
     }
     let unknowns = &structure.rates.unknowns;
@@ -99,7 +102,7 @@ pub fn clear_speeds(model: &Model) -> Option<Vec<usize>> {
     let structure = super::analyse(&Model { speeds: Vec::new(), ..model.clone() }).ok()?;
     let problem = Problem::written(model, structure.writing);
     let points = points(&problem, &structure);
-    let choice = Choice { model, problem: &problem, structure: &structure, points: &points };
+    let choice = Choice { model, problem: &problem, structure: &structure, points: &points, start: None };
     let mut values = Values::default();
     let mut seen: Vec<Vec<Offered>> = Vec::new();
     for point in &points {
@@ -164,6 +167,8 @@ struct Choice<'a> {
     problem: &'a Problem,
     structure: &'a Structure,
     points: &'a [Point],
+    /// Where coordinates are declared to stand, if loops are closed there.
+    start: Option<&'a Point>,
 }
 
 impl Choice<'_> {
@@ -226,7 +231,7 @@ impl Choice<'_> {
     }
 
     /// Of the state the coordinates whose rates follow, if as many others as motions are left among `open` and determine them.
-    fn others(&self, rests: &[Rest], open: &[Coordinate]) -> Option<(Vec<Coordinate>, f64)> {
+    fn others(&self, rests: &[Rest], open: &[Coordinate], with_speeds: bool) -> Option<(Vec<Coordinate>, f64)> {
         let count = rests.first()?.len();
         let column =
             |coordinate: &Coordinate| self.problem.columns.iter().position(|column| column.coordinate == *coordinate);
@@ -236,13 +241,14 @@ impl Choice<'_> {
         let (open, wished) = if wished.len() > count { (&wished[..], &[][..]) } else { (open, &wished[..]) };
         let columns: Vec<usize> = open.iter().map(column).collect::<Option<_>>()?;
         let wished: Vec<usize> = (0..open.len()).filter(|&k| wished.contains(&open[k])).collect();
-        let volume = |chosen: &[usize]| {
-            let of = |rest: &Rest| {
-                determinant(chosen.iter().map(|&k| rest.iter().map(|unit| unit[columns[k]]).collect()).collect())
-            };
-            rests.iter().map(of).fold(f64::INFINITY, f64::min)
+        let at = |rest: &Rest, chosen: &[usize]| {
+            determinant(chosen.iter().map(|&k| rest.iter().map(|unit| unit[columns[k]]).collect()).collect())
         };
-        let (chosen, size) = best(open.len(), count, &wished, volume)?;
+        let volume = |chosen: &[usize]| rests.iter().map(|rest| at(rest, chosen)).fold(f64::INFINITY, f64::min);
+        let start = self.start.and_then(|point| self.motions_at(point, with_speeds));
+        let starts = |chosen: &[usize]| start.as_ref().is_none_or(|rest| at(rest, chosen) > CLEAR);
+        let from_start = best(open.len(), count, &wished, |chosen| if starts(chosen) { volume(chosen) } else { 0.0 });
+        let (chosen, size) = from_start.or_else(|| best(open.len(), count, &wished, volume))?;
         let is_chosen = |coordinate: &Coordinate| chosen.iter().any(|&k| open[k] == *coordinate);
         Some((self.structure.state.iter().copied().filter(|coordinate| !is_chosen(coordinate)).collect(), size))
     }

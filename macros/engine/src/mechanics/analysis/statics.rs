@@ -52,6 +52,8 @@ pub(super) struct Statics {
     positions: Vec<usize>,
     /// Symbols that don't stand at their defaults.
     moved: Vec<usize>,
+    /// Of these, those that keep their sign: parameters, which may be masses.
+    signed: HashSet<usize>,
     /// Time, where loops and drives don't know of it.
     free_time: Option<usize>,
     /// (symbol, root), of positions, velocities and accelerations.
@@ -86,21 +88,21 @@ pub(super) struct Slopes {
 }
 
 /// What is made large in a sample: loads that are small beside others while inputs and parameters are about one may outweigh them elsewhere.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Emphasis {
     None,
-    /// One in so many inputs, states, parameters and the time, from this number on.
+    /// One in so many inputs, states, parameters and the time, from this number on. Inputs and states get the factor's sign.
     Share {
         first: usize,
         of: usize,
+        factor: f64,
     },
     Velocities,
     /// Nothing moves that no drive moves: at a pose where motions cross, not all velocities that its equations allow can be.
     Rest,
 }
 
-/// Factors of inputs and the like, and of velocities, with whose squares most loads grow.
-const EMPHASIS: f64 = 1e6;
+/// Factor of velocities, with whose squares most loads grow.
 const FAST: f64 = 1e3;
 
 /// Force and moment by joint.
@@ -178,13 +180,17 @@ impl Statics {
         };
         let is_position = |&k: &usize| matches!(symbols.table[k], Symbol::Position { .. });
         let free_time = number(&e, symbols.time).filter(|time| !closing.contains(time) && !of_drives.contains(time));
+        let moved: Vec<usize> = (0..symbols.table.len()).filter(is_moved).collect();
+        let is_parameter = |&k: &usize| matches!(symbols.table[k], Symbol::Param { .. });
+        let signed = moved.iter().copied().filter(is_parameter).chain(free_time).collect();
         let kept = (0..rows.len()).filter(|&k| !structure.dropped.contains(&rows[k])).collect();
         let plain = Statics {
             kept,
             velocities: in_places(&e, &symbols.velocities),
             accelerations: in_places(&e, &symbols.accelerations),
             multipliers: symbols.multipliers.iter().filter_map(|&s| number(&e, s)).collect(),
-            moved: (0..symbols.table.len()).filter(is_moved).collect(),
+            moved,
+            signed,
             positions: (0..symbols.table.len()).filter(is_position).collect(),
             free_time,
             courses: tape.clone(),
@@ -211,6 +217,11 @@ impl Statics {
         self.moved.len() + usize::from(self.free_time.is_some())
     }
 
+    /// Whether any of these is an input or a state.
+    pub(super) fn has_inputs(&self) -> bool {
+        self.moved.iter().any(|symbol| !self.signed.contains(symbol))
+    }
+
     /// At a closed pose; nothing where the mechanism allows no velocities there, or something has no number.
     pub(super) fn sample(
         &mut self,
@@ -230,9 +241,12 @@ impl Statics {
         if let Some(time) = self.free_time {
             at[time] = LATE * random.next().abs();
         }
-        if let Emphasis::Share { first, of } = emphasis {
+        if let Emphasis::Share { first, of, factor } = emphasis {
             let all = self.moved.iter().copied().chain(self.free_time);
-            all.skip(first).step_by(of).for_each(|symbol| at[symbol] *= EMPHASIS);
+            all.skip(first).step_by(of).for_each(|symbol| {
+                let free = factor * (0.1 + 0.3 * random.next().abs());
+                at[symbol] = if self.signed.contains(&symbol) { at[symbol] * factor.abs() } else { free };
+            });
         }
         let is_place = |symbol: usize| self.positions.contains(&symbol);
         for (tape, of_places) in [(&self.tape, true), (&self.courses, false)] {

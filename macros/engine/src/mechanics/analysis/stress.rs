@@ -41,8 +41,13 @@ const NOTHING: f64 = 1e-7;
 const DIGITS: f64 = 1e-11;
 /// As often a sample is drawn that has no numbers.
 const DRAWS: usize = 8;
-/// In so many parts inputs, states and parameters count more than all else, one part after the other.
-const SHARES: usize = 24;
+/// So much more than all else inputs, states and parameters count, in so many parts, one part after the other.
+const EMPHASIS: f64 = 1e6;
+const SHARES: usize = 12;
+/// Where there are inputs or states, the same in fewer parts for loads as they are, with these factors: an exponential is next to nothing below some of
+/// them and no number above.
+const GROWING: [f64; 4] = [8.0, 128.0, 2048.0, 32768.0];
+const GROWING_SHARES: usize = 2;
 /// Beside all terms that a change would be made of where nothing is closed, or that loads are sums of.
 const ROUNDING: f64 = 1e-9;
 
@@ -85,7 +90,7 @@ pub(super) fn complaints(model: &Model, structure: &Structure, writing: Writing)
     }
     let problem = Problem::written(model, writing);
     let certain = structure.dropped.is_empty() && structure.wavering.is_empty() && !structure.redundant;
-    let declared = declared(&problem).filter(|point| is_singular(&problem, structure, point));
+    let declared = configurations::start(&problem).filter(|point| is_singular(&problem, structure, point));
     if certain && declared.is_none() {
         return Vec::new();
     }
@@ -122,15 +127,6 @@ fn poses(model: &Model, problem: &Problem, structure: &Structure) -> Vec<Point> 
         poses.extend(further_poses(&problem.moved(model, OFF), &AMPLITUDES[..further.min(POSES)]));
     }
     poses
-}
-
-/// The pose that is declared, where it closes all loops, and equations have slopes, which those of a disc that lies flat have not.
-fn declared(problem: &Problem) -> Option<Point> {
-    let equations: Vec<usize> = (0..problem.equations.len()).collect();
-    let columns: Vec<usize> = (0..problem.columns.len()).collect();
-    let driven = problem.driven_columns();
-    let point = configurations::declared(problem, &Search::new(problem, &equations, &columns).holding(&driven))?;
-    problem.has_slopes(&point, &mut Values::default()).then_some(point)
 }
 
 /// Whether equations that don't follow from others elsewhere do so at a pose.
@@ -209,11 +205,10 @@ impl<'a> Samples<'a> {
         let all: Vec<Seen> =
             ways.into_iter().filter_map(|(emphasis, program)| self.at(point, emphasis, program)).collect();
         // Nothing is known where nothing has numbers.
-        let first = |number| match all.is_empty() {
-            true => Some(Open::default()),
-            false => all.iter().find_map(|seen| self.verdict(seen, number).open()),
-        };
-        (0..outputs).map(first).collect()
+        if all.is_empty() {
+            return (0..outputs).map(|_| Some(Open::default())).collect();
+        }
+        self.open(&all.iter().map(|seen| (point, seen)).collect::<Vec<_>>(), outputs)
     }
 
     /// What is open of each output at any of these poses.
@@ -229,12 +224,16 @@ impl<'a> Samples<'a> {
             return (0..outputs).map(|_| Some(Open::default())).collect();
         }
         let counts: Vec<usize> = all.iter().map(|(_, seen)| seen.sample.stress.len()).collect();
-        let typical: Vec<&(&Point, Seen)> =
-            all.iter().zip(&counts).filter(|one| is_typical(*one.1, &counts)).map(|one| one.0).collect();
+        let typical = all.iter().zip(&counts).filter(|one| is_typical(*one.1, &counts));
+        self.open(&typical.map(|one| (one.0.0, &one.0.1)).collect::<Vec<_>>(), outputs)
+    }
+
+    /// What is open of each output in any of these samples.
+    fn open(&mut self, all: &[(&Point, &Seen)], outputs: usize) -> Vec<Option<Open>> {
         let mut found: Vec<Option<Open>> = Vec::new();
         let mut is_unstressed = vec![false; outputs];
         for (number, unstressed) in is_unstressed.iter_mut().enumerate() {
-            let open = typical.iter().find_map(|(_, seen)| match self.verdict(seen, number) {
+            let open = all.iter().find_map(|(_, seen)| match self.verdict(seen, number) {
                 Verdict::Determined => None,
                 Verdict::Unstressed => {
                     *unstressed = true;
@@ -245,14 +244,24 @@ impl<'a> Samples<'a> {
             found.push(open);
         }
         // What is zero there may be small alone.
-        let of = self.programs[BLENDED].moved().min(SHARES);
-        let shares = (0..of).map(|first| Emphasis::Share { first, of });
-        for (emphasis, (point, _)) in shares.chain([Emphasis::Velocities]).zip(typical.iter().cycle()) {
+        let moved = self.programs[BLENDED].moved();
+        // Inputs and states may have either sign.
+        let has_signs = self.programs[BLENDED].has_inputs();
+        let shares = |factor: f64, most: usize, program: usize| {
+            let of = moved.min(most);
+            let signs = [factor, -factor].into_iter().take(if has_signs { 2 } else { 1 });
+            signs.flat_map(move |factor| (0..of).map(move |first| (Emphasis::Share { first, of, factor }, program)))
+        };
+        let growing = GROWING.into_iter().filter(|_| has_signs);
+        let growing = growing.flat_map(|factor| shares(factor, GROWING_SHARES, PLAIN));
+        let ways = shares(EMPHASIS, SHARES, BLENDED).chain([(Emphasis::Velocities, BLENDED)]).chain(growing);
+        for ((emphasis, program), (point, _)) in ways.zip(all.iter().cycle()) {
             let in_doubt: Vec<usize> = (0..outputs).filter(|&k| is_unstressed[k] && found[k].is_none()).collect();
             if in_doubt.is_empty() {
                 break;
             }
-            let seen = self.at(point, emphasis, BLENDED).or_else(|| self.at(point, emphasis, PLAIN));
+            let other = PLAIN + BLENDED - program;
+            let seen = self.at(point, emphasis, program).or_else(|| self.at(point, emphasis, other));
             for number in in_doubt {
                 found[number] = match &seen {
                     Some(seen) => self.verdict(seen, number).open(),
