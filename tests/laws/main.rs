@@ -12,3 +12,4 @@ mod packs;
 mod power_balance;
 mod struts_in_packs;
 mod trees;
+mod walker;

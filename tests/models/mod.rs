@@ -26,3 +26,4 @@ pub mod state_space;
 pub mod stewart;
 pub mod stiff;
 pub mod tanks;
+pub mod walker;

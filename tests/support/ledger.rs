@@ -124,7 +124,9 @@ pub fn entries() -> Vec<Entry> {
     for call in calls("models/rolling.rs") {
         add(models(call), true, "bicycle", &[]);
     }
-    for call in ["models/required.rs", "models/quadruped.rs", "models/torso.rs"].into_iter().flat_map(calls) {
+    for call in
+        ["models/required.rs", "models/quadruped.rs", "models/torso.rs", "models/walker.rs"].into_iter().flat_map(calls)
+    {
         add(models(call), false, "", &[]);
     }
     // The platform in several coordinates: everything literal. Then what Newton's method closes, beside the same with

@@ -95,7 +95,7 @@ fn falling(g: &mut Graph, tree: &Tree, floating_bases: &[&FloatingBase], base: V
 }
 
 /// Coordinates and axes of a floating base's translations.
-fn slides<'t>(tree: &'t Tree, floating_base: &'t FloatingBase) -> impl Iterator<Item = (usize, usize)> + 't {
+pub(super) fn slides<'t>(tree: &'t Tree, floating_base: &'t FloatingBase) -> impl Iterator<Item = (usize, usize)> + 't {
     floating_base.slides.iter().filter_map(|&index| match tree.links[index].motion {
         Motion::Prismatic(axis) => Some((tree.links[index].freedom, axis)),
         _ => None,
@@ -194,7 +194,12 @@ fn eliminate(
 }
 
 /// An articulated inertia about a link's origin as its parent sees it.
-fn inertia_to_parent(g: &mut Graph, tree: &Tree, link: &Link, inertia: &ArticulatedInertia) -> ArticulatedInertia {
+pub(super) fn inertia_to_parent(
+    g: &mut Graph,
+    tree: &Tree,
+    link: &Link,
+    inertia: &ArticulatedInertia,
+) -> ArticulatedInertia {
     let turned = match link.motion {
         Motion::Revolute(axis) | Motion::Screw(axis, _) => {
             let (sin, cos) = (g.sin(link.q), g.cos(link.q));
@@ -261,16 +266,16 @@ fn accelerate(g: &mut Graph, tree: &Tree, floating_bases: &[&FloatingBase], pivo
     result
 }
 
-fn is_zero(g: &mut Graph, wrench: &Wrench) -> bool {
+pub(super) fn is_zero(g: &mut Graph, wrench: &Wrench) -> bool {
     components(g, wrench).iter().all(|&component| component == Scalar::ZERO)
 }
 
-fn components(g: &mut Graph, wrench: &Wrench) -> [Scalar; 6] {
+pub(super) fn components(g: &mut Graph, wrench: &Wrench) -> [Scalar; 6] {
     let (m, f) = (g.components(wrench.moment), g.components(wrench.force));
     [m[0], m[1], m[2], f[0], f[1], f[2]]
 }
 
-fn dot(g: &mut Graph, a: &[Scalar; 6], b: &[Scalar; 6]) -> Scalar {
+pub(super) fn dot(g: &mut Graph, a: &[Scalar; 6], b: &[Scalar; 6]) -> Scalar {
     let terms: [Scalar; 6] = std::array::from_fn(|k| g.mul(a[k], b[k]));
     g.sum(&terms)
 }

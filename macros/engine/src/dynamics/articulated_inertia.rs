@@ -21,10 +21,12 @@ pub struct ArticulatedInertia {
 }
 
 impl ArticulatedInertia {
+    pub const ZERO: ArticulatedInertia =
+        ArticulatedInertia { angular: [Scalar::ZERO; 6], mixed: [[Scalar::ZERO; 3]; 3], linear: [Scalar::ZERO; 6] };
+
     /// Of a body alone: J = tr(D) 1 - D, H = [m c x], M = m 1.
     pub fn rigid(g: &mut Graph, inertia: &Inertia) -> Self {
-        let mut result =
-            ArticulatedInertia { angular: [Scalar::ZERO; 6], mixed: [[Scalar::ZERO; 3]; 3], linear: [Scalar::ZERO; 6] };
+        let mut result = ArticulatedInertia::ZERO;
         for i in 0..3 {
             for j in i..3 {
                 result.angular[entry(i, j)] = inertia.tensor(g, i, j);

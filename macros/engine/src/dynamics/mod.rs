@@ -4,7 +4,7 @@
 //! [`tree`] is what all recursions walk. Kinematics: [`kinematics`] and [`velocities`] in link axes, [`columns`] and
 //! [`world`] in those of one link or the world, [`point_kinematics`] for single points. Dynamics: [`newton_euler`],
 //! [`lumped`] (the same over links that turn together), [`composite`], [`composite_at_root`] (the same for long chains),
-//! [`articulated`], [`momentum`], [`energy`]; [`regroup`], [`slid_origins`], [`turned_ends`], [`shared_axes`] and
+//! [`articulated`], [`embedded`] (the same where loops are solved), [`momentum`], [`energy`]; [`regroup`], [`slid_origins`], [`turned_ends`], [`shared_axes`] and
 //! [`floating_bases`] say how a tree is written so that they cost less; [`saddle`] solves systems with constraints, in an
 //! order that [`elimination`] finds.
 
@@ -14,6 +14,7 @@ pub mod columns;
 pub mod composite;
 pub mod composite_at_root;
 pub mod elimination;
+pub mod embedded;
 pub mod energy;
 pub mod floating_bases;
 pub mod inertia;

@@ -82,6 +82,12 @@ const METHODS: [(Method, Names); 2] = [
     ),
 ];
 
+const EMBEDDED: Names = [
+    "articulated body, loops embedded",
+    "articulated body, loops embedded, parallel hinges in the axes of their base",
+    "articulated body, loops embedded, parallel hinges in the axes of their tip",
+];
+
 const LUMPED: &str = "Newton-Euler, links that turn together gathered";
 
 /// Most ways to the equations of a body on struts.

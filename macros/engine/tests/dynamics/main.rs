@@ -2,6 +2,7 @@
 
 #[path = "../common/arms.rs"]
 mod arms;
+mod embedded;
 #[path = "../common/formulations.rs"]
 mod formulations;
 mod lumped;

@@ -7,6 +7,7 @@ use std::rc::Rc;
 use crate::contracts::results::{Results, Slot};
 use crate::mechanics::analysis::Complaint;
 use crate::mechanics::equations::Equations;
+use crate::mechanics::loops::reduction::Reduction;
 use crate::mechanics::results::constrained::ConstrainedMotion;
 use crate::mechanics::scene::{Choices, Method, Style};
 use crate::mechanics::strut::forward;
@@ -14,7 +15,9 @@ use crate::mechanics::translate::dependencies::Dependencies;
 use crate::model::types::Output;
 use crate::symbolic::graph::Scalar;
 
-use super::{Candidate, Deriving, METHODS, MOST_COMPOSITE, MOST_STRUT_WAYS, articulates, floats, freedoms};
+use super::{
+    AXES, Candidate, Deriving, EMBEDDED, METHODS, MOST_COMPOSITE, MOST_STRUT_WAYS, articulates, floats, freedoms,
+};
 
 impl<'m> Deriving<'m> {
     pub(super) fn forward_dynamics(&mut self) -> Result<Vec<Candidate>, Vec<Complaint>> {
@@ -51,37 +54,23 @@ impl<'m> Deriving<'m> {
             let reduction = equations.reduce()?;
             let solved = equations.solve_constrained(&reduction);
             let rates: Vec<Scalar> = model.states.iter().map(|state| equations.scalar(&state.rate)).collect();
-            let mut results =
+            let results =
                 solved.results(equations.put_in_all(&reduction, &solved, &rates), equations.moved(&reduction));
-            if !reduction.residuals.is_empty() {
-                let residual = equations.worst_residual(&reduction);
-                let residual = equations.finish(&reduction, &[residual])[0];
-                results = results.with_scalar(Slot::Residual, residual);
-            }
-            Ok(results)
+            Ok(equations.with_residual(&reduction, results))
         };
         let mut candidates = self.in_all_axes(&METHODS[0].1, Method::Composite, &kept, all)?;
-        if self.structure.has_speeds() && kept.is_empty() {
+        if kept.is_empty() {
             let way = Choices { method: Method::Articulated, ..self.way() };
-            candidates.extend(self.maybe(way, |e| {
-                let reduction = e.reduce()?;
-                let Some(accelerations) = e.accelerations_on_balls(&reduction) else { return Ok(None) };
-                let solved = ConstrainedMotion { accelerations, multipliers: Vec::new(), rank: None };
-                let rates: Vec<Scalar> = model.states.iter().map(|state| e.scalar(&state.rate)).collect();
-                let rates = e.put_in_all(&reduction, &solved, &rates);
-                Ok(Some((METHODS[1].1[0], solved.results(rates, e.moved(&reduction)))))
-            })?);
+            let name = METHODS[1].1[0];
+            candidates
+                .extend(self.accelerated(way, |e, reduction| Some((name, e.accelerations_on_balls(reduction)?)))?);
+            candidates = self.embedded(way, candidates)?;
         }
         for at in 0..MOST_STRUT_WAYS {
-            let found = self.maybe(self.way(), |e| {
-                let reduction = e.reduce()?;
-                let Some(platform) = e.platform(&reduction) else { return Ok(None) };
-                let name = forward::ways(&platform.carrier, e.is_packed()).get(at).map(|way| way.0);
-                let Some(accelerations) = e.platform_accelerations(&platform, &reduction, at) else { return Ok(None) };
-                let solved = ConstrainedMotion { accelerations, multipliers: Vec::new(), rank: None };
-                let rates: Vec<Scalar> = model.states.iter().map(|state| e.scalar(&state.rate)).collect();
-                let rates = e.put_in_all(&reduction, &solved, &rates);
-                Ok(name.map(|name| (name, e.with_numbers(solved.results(rates, Vec::new())))))
+            let found = self.accelerated(self.way(), |e, reduction| {
+                let platform = e.platform(reduction)?;
+                let name = forward::ways(&platform.carrier, e.is_packed()).get(at)?.0;
+                Some((name, e.platform_accelerations(&platform, reduction, at)?))
             })?;
             let Some(found) = found else { break };
             candidates.push(found);
@@ -92,6 +81,43 @@ impl<'m> Deriving<'m> {
             candidates.extend(self.candidate(name, way, &kept, &mut { all })?);
         }
         Ok(candidates)
+    }
+
+    /// With those that embed loops: in common axes only where links' own are worth it, and the model is not large. What takes a good deal more is
+    /// left out.
+    fn embedded(&mut self, way: Choices, mut candidates: Vec<Candidate>) -> Result<Vec<Candidate>, Vec<Complaint>> {
+        let [own, common @ ..] = EMBEDDED;
+        let found = self.accelerated(way, |e, reduction| Some((own, e.accelerations_embedded(reduction)?)))?;
+        let Some(found) = found else { return Ok(candidates) };
+        let least = candidates.iter().map(|candidate| self.weight(&candidate.1.list)).min();
+        let pays = least.is_none_or(|least| self.weight(&found.1.list) < least);
+        let pays = pays && freedoms(self.model) <= MOST_COMPOSITE;
+        candidates.push(found);
+        for (axes, name) in AXES.into_iter().skip(1).zip(common).filter(|_| pays) {
+            let way = Choices { axes, ..way };
+            let found = self.accelerated(way, |e, reduction| Some((name, e.accelerations_embedded(reduction)?)))?;
+            candidates.extend(found);
+        }
+        Ok(self.promising(candidates))
+    }
+
+    /// What knows accelerations of some models only, without multipliers.
+    fn accelerated(
+        &mut self,
+        way: Choices,
+        f: impl Fn(&mut Equations<'m>, &Reduction) -> Option<(&'static str, Vec<Scalar>)>,
+    ) -> Result<Option<Candidate>, Vec<Complaint>> {
+        let model = self.model;
+        self.maybe(way, |e| {
+            let reduction = e.reduce()?;
+            let Some((name, accelerations)) = f(e, &reduction) else { return Ok(None) };
+            let solved = ConstrainedMotion { accelerations, multipliers: Vec::new(), rank: None };
+            let rates: Vec<Scalar> = model.states.iter().map(|state| e.scalar(&state.rate)).collect();
+            let rates = e.put_in_all(&reduction, &solved, &rates);
+            let results = solved.results(rates, e.moved(&reduction));
+            let results = e.with_residual(&reduction, results);
+            Ok(Some((name, e.with_numbers(results))))
+        })
     }
 
     /// Values, rates and accelerations of coordinates from those that are given.

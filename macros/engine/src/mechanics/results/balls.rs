@@ -22,8 +22,10 @@ impl Equations<'_> {
         let structure = Rc::clone(&self.scene.structure);
         let mechanism = Rc::clone(&self.scene.mechanism);
         let hinges: Vec<_> = mechanism.balls.iter().flat_map(|ball| ball.hinges).collect();
-        let is_open =
-            structure.rows.is_empty() && structure.rates.rows.is_empty() && reduction.rates.len() == hinges.len();
+        let is_open = structure.has_speeds()
+            && structure.rows.is_empty()
+            && structure.rates.rows.is_empty()
+            && reduction.rates.len() == hinges.len();
         let follow = structure.rates.unknowns.iter().all(|unknown| hinges.contains(unknown));
         if !is_open || !follow || self.is_first_order() || !self.rotors().is_empty() {
             return None;

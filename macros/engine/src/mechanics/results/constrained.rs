@@ -126,12 +126,17 @@ impl Equations<'_> {
     /// The same where accelerations of the state are zero, under the declared forces.
     pub(in crate::mechanics) fn reduced_bias(&mut self, reduction: &Reduction) -> Vec<Scalar> {
         let efforts = self.state_efforts(reduction, LoadCase::Declared);
-        // Dependents' accelerations hold those of the state: they are put in before these are set to zero.
-        let efforts = self.finish(reduction, &efforts);
-        let rest = self.rest();
-        let efforts = self.g.substitute(&efforts, &rest);
-        let bias = self.finish(reduction, &efforts);
+        let bias = self.where_the_state_rests(reduction, &efforts);
         self.first_order(&bias)
+    }
+
+    /// With definitions put in, where accelerations of the state are zero.
+    pub(super) fn where_the_state_rests(&mut self, reduction: &Reduction, list: &[Scalar]) -> Vec<Scalar> {
+        // Dependents' accelerations hold those of the state: they are put in before these are set to zero.
+        let list = self.finish(reduction, list);
+        let rest = self.rest();
+        let list = self.g.substitute(&list, &rest);
+        self.finish(reduction, &list)
     }
 
     /// Efforts of the state, before definitions are put in.
@@ -400,6 +405,20 @@ impl Equations<'_> {
         let pairs: Vec<(Scalar, Scalar)> = symbols.zip(values).collect();
         let map = self.map(&pairs);
         self.g.substitute(&roots, &map)
+    }
+
+    /// With the greatest residual of all iterations, where there are any.
+    pub(in crate::mechanics) fn with_residual(
+        &mut self,
+        reduction: &Reduction,
+        results: Results<Scalar>,
+    ) -> Results<Scalar> {
+        if reduction.residuals.is_empty() {
+            return results;
+        }
+        let residual = self.worst_residual(reduction);
+        let residual = self.finish(reduction, &[residual])[0];
+        results.with_scalar(Slot::Residual, residual)
     }
 
     /// The greatest residual of all iterations.

@@ -9,6 +9,7 @@ pub(super) mod centroidal;
 pub(super) mod constrained;
 pub(super) mod constraint_forces;
 pub(super) mod dynamics;
+pub(super) mod embedded;
 pub(super) mod energy;
 pub(super) mod euler_singularities;
 pub(super) mod first_order;
