@@ -4,7 +4,9 @@ use std::ffi::CStr;
 
 use crate::abi::{Subject, subject};
 use crate::export::{MULTIPLIERS, PACKS, PROGRAM};
-use crate::loops::{biped, biped_reduced, delta, delta_reduced, stewart, stewart_packed, stewart_reduced};
+use crate::loops::{
+    biped, biped_packed, biped_reduced, delta, delta_reduced, stewart, stewart_packed, stewart_reduced,
+};
 use crate::samples::{BIPED, Base, Biped, DELTA, Delta, STEWART, Sample, Stewart};
 use multibody::nalgebra::SVector;
 use multibody::{FreeRollPitchYaw, Pose, RollPitchYaw, Twist};
@@ -71,15 +73,44 @@ fn delta_results(all: &Delta, accel: delta_reduced::Velocity<f64>) -> Vec<f64> {
     accelerations(&base, &all.4)
 }
 
-fn biped_results(all: &Biped, accel: biped_reduced::Velocity<f64>) -> Vec<f64> {
+fn biped_results(all: &Biped, pelvis: Twist<f64>, accel: SVector<f64, 16>) -> Vec<f64> {
     let (pose, velocity): (Pose<f64>, Twist<f64>) = (all.2.q.pelvis, all.2.v.pelvis);
-    let mut results = accelerations(&Base { pose, velocity, accel: accel.pelvis }, &all.4);
+    let mut results = accelerations(&Base { pose, velocity, accel: pelvis }, &all.4);
     // Of each leg's seven coordinates the first five are independent.
-    let accel: SVector<f64, 16> = accel.into();
     for leg in 0..2 {
         results[6 + 7 * leg..][..5].copy_from_slice(&accel.as_slice()[6 + 5 * leg..][..5]);
     }
     results
+}
+
+/// The biped alone, with its legs one after the other or in packs.
+macro_rules! biped_alone {
+    ($program:expr, $module:ident) => {{
+        type Point = ($module::Model<f64>, $module::State<f64>, $module::Input<f64>, &'static Biped);
+        subject!(
+            c"biped",
+            c"forward",
+            $program,
+            LENGTHS[2],
+            1,
+            Point,
+            |x| {
+                let all = BIPED.iter().find(|all| all.4.is(x)).expect("one of ours");
+                let (mut state, mut input) = ($module::State::default(), $module::Input::default());
+                let velocity: SVector<f64, 16> = all.2.v.into();
+                (state.q.pelvis, state.v) = (all.2.q.pelvis, velocity.into());
+                for (leg, q) in state.q.legs.iter_mut().zip(&all.2.q.legs) {
+                    (leg.yaw, leg.roll, leg.pitch, leg.knee, leg.drive) = (q.yaw, q.roll, q.pitch, q.knee, q.drive);
+                }
+                for (leg, given) in input.legs.iter_mut().zip(&all.3.legs) {
+                    leg.torque = given.torque;
+                }
+                ($module::Model::default(), state, input, all)
+            },
+            (|(model, state, input, _): &Point| model.forward_dynamics(0.0, state, input)),
+            (|(.., all): &Point, _, accel: $module::Velocity<f64>| biped_results(all, accel.pelvis, accel.into())),
+        )
+    }};
 }
 
 /// A state of the platform alone, for a model of it.
@@ -173,7 +204,8 @@ pub const SUBJECTS: &[Subject] = &[
     multipliers!(c"stewart", stewart, STEWART, Stewart, LENGTHS[0]),
     reduced!(c"delta", delta_reduced, DELTA, Delta, LENGTHS[1], delta_results),
     multipliers!(c"delta", delta, DELTA, Delta, LENGTHS[1]),
-    reduced!(c"biped", biped_reduced, BIPED, Biped, LENGTHS[2], biped_results),
+    biped_alone!(PROGRAM, biped_reduced),
+    biped_alone!(PACKS, biped_packed),
     multipliers!(c"biped", biped, BIPED, Biped, LENGTHS[2]),
     stewart_alone!(forces, PROGRAM, stewart_reduced),
     stewart_alone!(forces, PACKS, stewart_packed),

@@ -194,4 +194,15 @@ multibody! {
         part legs: [leg; 2] = |i| leg { hip: pelvis.at([0.0, 0.1 - 0.2 * i, -0.05]) };
         emit forward_dynamics;
     }
+    /// The same with legs in packs.
+    pub mod biped_packed {
+        world { gravity: -9.80665 * Z }
+        formulation { constraints: Reduced, packs: Four }
+        body pelvis {
+            mass: 12.0, com: [0.01, 0.0, 0.12], inertia: inertia(0.21, 0.17, 0.13, 0.002, -0.006, 0.001),
+            coordinates: Absolute(Quaternion),
+        }
+        part legs: [leg; 2] = |i| leg { hip: pelvis.at([0.0, 0.1 - 0.2 * i, -0.05]) };
+        emit forward_dynamics;
+    }
 }
