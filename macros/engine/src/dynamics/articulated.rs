@@ -66,7 +66,7 @@ pub fn forward_dynamics(
         .iter()
         .filter(|floating_base| floating_base.carriers().all(|k| is_zero(g, &applied[k])))
         .collect();
-    let still = falling(g, tree, &floating_bases, base);
+    let still = falling(g, tree, &floating_bases, base, &vec![Scalar::ZERO; tree.freedoms()]);
     let motions = motions(g, tree, velocity, &still, base);
     let mut wrenches = Vec::with_capacity(tree.links.len());
     for ((link, motion), outside) in tree.links.iter().zip(&motions).zip(applied) {
@@ -79,9 +79,15 @@ pub fn forward_dynamics(
     still.iter().zip(beside).map(|(&still, beside)| g.add(still, beside)).collect()
 }
 
-/// Accelerations of what falls freely from the ground; zero elsewhere.
-fn falling(g: &mut Graph, tree: &Tree, floating_bases: &[&FloatingBase], base: Vector) -> Vec<Scalar> {
-    let mut still = vec![Scalar::ZERO; tree.freedoms()];
+/// Accelerations of what falls freely from the ground; elsewhere as given.
+pub(super) fn falling(
+    g: &mut Graph,
+    tree: &Tree,
+    floating_bases: &[&FloatingBase],
+    base: Vector,
+    still: &[Scalar],
+) -> Vec<Scalar> {
+    let mut still = still.to_vec();
     for floating_base in floating_bases {
         let first = &tree.links[floating_base.slides[0]];
         if first.parent.is_none() {
@@ -103,12 +109,12 @@ pub(super) fn slides<'t>(tree: &'t Tree, floating_base: &'t FloatingBase) -> imp
 }
 
 /// Unit translations along the axes of a floating base, with their efforts.
-fn translations(
+pub(super) fn translations(
     g: &mut Graph,
     tree: &Tree,
     floating_base: &FloatingBase,
     efforts: &[Scalar],
-) -> Vec<(Freedom, [Scalar; 6], Scalar)> {
+) -> Vec<(usize, [Scalar; 6], Scalar)> {
     let mut along = [Scalar::ZERO; 3];
     for (freedom, axis) in slides(tree, floating_base) {
         along[axis] = efforts[freedom];
@@ -125,7 +131,7 @@ fn translations(
     };
     let axes = (0..3).filter(|&axis| Some(axis) != normal);
     let unit = |axis: usize| std::array::from_fn(|k| if k == axis + 3 { Scalar::ONE } else { Scalar::ZERO });
-    axes.map(|axis| (Freedom::Along(axis), unit(axis), along[axis])).collect()
+    axes.map(|axis| (axis, unit(axis), along[axis])).collect()
 }
 
 /// From the leaves inwards.
@@ -144,7 +150,9 @@ fn eliminate(
         let mut wrench = components(g, &wrenches[index]);
         let mut freedoms = Vec::new();
         if let Some(floating_base) = floating_bases.iter().find(|floating_base| floating_base.link == index) {
-            freedoms.extend(translations(g, tree, floating_base, efforts));
+            let translations = translations(g, tree, floating_base, efforts);
+            freedoms
+                .extend(translations.into_iter().map(|(axis, twist, effort)| (Freedom::Along(axis), twist, effort)));
         }
         if !floating_bases.iter().any(|floating_base| floating_base.slides.contains(&index)) {
             freedoms.extend(tree.twists(link).into_iter().map(|(k, twist)| (Freedom::Of(k), twist, efforts[k])));

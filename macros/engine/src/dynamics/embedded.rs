@@ -13,15 +13,16 @@
 
 use std::collections::BTreeMap;
 
+use crate::invariant::fault::OrFault;
 use crate::invariant::injection::{Break, broken};
 use crate::symbolic::graph::{Graph, Scalar, Vector};
 
-use super::articulated::{components, dot, inertia_to_parent, is_zero, slides};
+use super::articulated::{components, dot, falling, inertia_to_parent, is_zero, slides, translations};
 use super::articulated_inertia::ArticulatedInertia;
 use super::floating_bases::FloatingBase;
 use super::kinematics::motions;
 use super::newton_euler::{Wrench, inertial_wrench, to_parent};
-use super::tree::{Motion, Tree};
+use super::tree::Tree;
 
 /// How coordinates of a tree accelerate with those of the state.
 pub struct Embedding {
@@ -153,27 +154,6 @@ pub fn forward_dynamics(
     still.iter().zip(moved).map(|(&still, moved)| g.add(still, moved)).collect()
 }
 
-/// Accelerations of what falls freely from the ground; elsewhere as given.
-fn falling(
-    g: &mut Graph,
-    tree: &Tree,
-    floating_bases: &[&FloatingBase],
-    base: Vector,
-    still: &[Scalar],
-) -> Vec<Scalar> {
-    let mut still = still.to_vec();
-    for floating_base in floating_bases {
-        let first = &tree.links[floating_base.slides[0]];
-        if first.parent.is_none() {
-            let pull = g.rotate(first.rotation.transpose(), base);
-            for (freedom, axis) in slides(tree, floating_base) {
-                still[freedom] = -g.component(pull, axis);
-            }
-        }
-    }
-    still
-}
-
 /// Numbers of a floating base's translations along its own axes.
 fn along(tree: &Tree, base: usize, axis: usize) -> usize {
     tree.freedoms() + 3 * base + axis
@@ -192,7 +172,10 @@ fn freedoms(
     for (index, link) in tree.links.iter().enumerate() {
         let mut freedoms = Vec::new();
         if let Some(base) = floating_bases.iter().position(|floating_base| floating_base.link == index) {
-            freedoms.extend(translations(g, tree, floating_bases[base], base, efforts));
+            for (axis, twist, effort) in translations(g, tree, floating_bases[base], efforts) {
+                let slopes = vec![(along(tree, base, axis), Scalar::ONE)];
+                freedoms.push(Freedom { coordinate: None, twist, armature: Scalar::ZERO, effort, slopes });
+            }
         }
         if !floating_bases.iter().any(|floating_base| floating_base.slides.contains(&index)) {
             for (k, twist) in tree.twists(link) {
@@ -205,40 +188,6 @@ fn freedoms(
         all.push(freedoms);
     }
     all
-}
-
-/// Unit translations along the axes of a floating base, with their efforts.
-fn translations(
-    g: &mut Graph,
-    tree: &Tree,
-    floating_base: &FloatingBase,
-    base: usize,
-    efforts: &[Scalar],
-) -> Vec<Freedom> {
-    let mut given = [Scalar::ZERO; 3];
-    for (freedom, axis) in slides(tree, floating_base) {
-        given[axis] = efforts[freedom];
-    }
-    let mut given = g.vector(given);
-    for &index in floating_base.turners.iter().chain([&floating_base.link]) {
-        given = tree.to_link(g, &tree.links[index], given);
-    }
-    let given = g.components(given);
-    // Where two translations float, they lie in the plane in which the floating base turns.
-    let normal = match tree.links[floating_base.link].motion {
-        Motion::Revolute(axis) if floating_base.slides.len() == 2 => Some(axis),
-        _ => None,
-    };
-    let axes = (0..3).filter(|&axis| Some(axis) != normal);
-    let unit = |axis: usize| std::array::from_fn(|k| if k == axis + 3 { Scalar::ONE } else { Scalar::ZERO });
-    axes.map(|axis| Freedom {
-        coordinate: None,
-        twist: unit(axis),
-        armature: Scalar::ZERO,
-        effort: given[axis],
-        slopes: vec![(along(tree, base, axis), Scalar::ONE)],
-    })
-    .collect()
 }
 
 /// From the leaves inwards.
@@ -259,7 +208,7 @@ fn eliminate(
     let mut ground = Felt::new(ArticulatedInertia::ZERO, Wrench::ZERO);
     let mut pivots = Vec::with_capacity(tree.freedoms());
     for (index, link) in tree.links.iter().enumerate().rev() {
-        let Some(mut own) = felt.pop() else { continue };
+        let mut own = felt.pop().or_fault("each link is felt");
         let heading = format!("Articulated inertia of {}.", link.name);
         for within in 0..=freedoms[index].len() {
             if let Some(freedom) = within.checked_sub(1).and_then(|last| freedoms[index].get(last)) {
@@ -346,8 +295,8 @@ impl Felt {
     }
 
     fn eliminate(&mut self, g: &mut Graph, motion: usize, (name, heading): (&str, &str)) -> Pivot {
-        let Open { column, rest, .. } = self.open.remove(&motion).unwrap_or(Open::NOTHING);
-        let pivot = self.masses.remove(&(motion, motion)).unwrap_or(Scalar::ZERO);
+        let Open { column, rest, .. } = self.open.remove(&motion).or_fault("what is eliminated is open");
+        let pivot = self.masses.remove(&(motion, motion)).or_fault("what is open has a mass");
         let before = g.begin(Some(heading.to_owned().into()));
         let inverse = g.reciprocal(pivot);
         let drive = g.mul(rest, inverse);
@@ -509,10 +458,8 @@ impl Pivot {
 
 /// Sum of slopes times accelerations.
 fn moved(g: &mut Graph, slopes: &[(usize, Scalar)], found: &BTreeMap<usize, Scalar>) -> Scalar {
-    let terms: Vec<Scalar> = slopes
-        .iter()
-        .filter_map(|&(motion, slope)| found.get(&motion).map(|&acceleration| g.mul(slope, acceleration)))
-        .collect();
+    let known = |motion: usize| found.get(&motion).copied().or_fault("what was eliminated later is known first");
+    let terms: Vec<Scalar> = slopes.iter().map(|&(motion, slope)| g.mul(slope, known(motion))).collect();
     g.sum(&terms)
 }
 

@@ -52,7 +52,7 @@ pub(super) struct Statics {
     positions: Vec<usize>,
     /// Symbols that don't stand at their defaults.
     moved: Vec<usize>,
-    /// Of these, those that keep their sign: parameters, which may be masses.
+    /// Of these and the time, what keeps its sign: parameters may be masses.
     signed: HashSet<usize>,
     /// Time, where loops and drives don't know of it.
     free_time: Option<usize>,
