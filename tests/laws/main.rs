@@ -2,6 +2,7 @@
 
 mod at;
 mod changing_mass;
+mod hopper;
 mod impulse;
 mod iterated;
 mod limbs;
@@ -12,4 +13,3 @@ mod packs;
 mod power_balance;
 mod struts_in_packs;
 mod trees;
-mod walker;

@@ -125,7 +125,7 @@ pub fn entries() -> Vec<Entry> {
         add(models(call), true, "bicycle", &[]);
     }
     for call in
-        ["models/required.rs", "models/quadruped.rs", "models/torso.rs", "models/walker.rs"].into_iter().flat_map(calls)
+        ["models/required.rs", "models/quadruped.rs", "models/torso.rs", "models/hopper.rs"].into_iter().flat_map(calls)
     {
         add(models(call), false, "", &[]);
     }

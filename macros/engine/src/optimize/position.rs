@@ -234,7 +234,13 @@ fn union(dags: &[&Dag], symbols: &[Symbol]) -> Dag {
         let mut map = HashMap::new();
         // Operands first, so that none is fetched from far below.
         for id in dag.order() {
-            all.adopt(dag, id, &mut map);
+            let value = all.adopt(dag, id, &mut map);
+            // A multiple that several places share stays one: dissolved, each of them would pay for it.
+            if let Kind::Sum(terms) = &dag.nodes[id].kind
+                && terms.len() == 1
+            {
+                map.insert(id, (Number::ONE, all.plain(value)));
+            }
         }
         for &(c, id) in &dag.roots {
             let (d, adopted) = all.adopt(dag, id, &mut map);

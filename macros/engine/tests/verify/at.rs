@@ -228,3 +228,18 @@ fn what_is_not_rewritten_is_right() {
     let optimised = optimize::compile(&derivation).unwrap();
     assert!(of_at(optimised.at.as_ref().unwrap()) < of_at(compiled.at.as_ref().unwrap()));
 }
+
+/// Spin of a body on a ball: half of one component stands in two results, and products of whole components in others.
+#[test]
+fn shared_multiples_stay_shared() {
+    let model = corpus::model(
+        "pub mod spinning {
+            body b { mass: 1.0, com: X, inertia: diag(1.0, 1.0, 1.0) }
+            joint j: Ball { parent: ground, child: b }
+            emit forward_dynamics, bias, at { functions: [forward_dynamics, bias] };
+        }",
+    );
+    let (_, derivation) = mechanics::of(&model).unwrap_or_else(|_| panic!("a derivation"));
+    let compiled = optimize::compile(&derivation).unwrap();
+    assert!(of_at(compiled.at.as_ref().unwrap()) <= alone(&compiled));
+}

@@ -1,4 +1,4 @@
-//! A floating trunk on two legs, whose knees and ankles are turned by cranks through rods, in planes that are askew to all axes: loops one
+//! A floating trunk on one leg, whose knee and ankle are turned by cranks through rods, in planes that are askew to all axes: loops one
 //! behind the other, far from the ground. With coordinates that follow, and with multipliers.
 
 use multibody::multibody;
@@ -6,12 +6,11 @@ use multibody::multibody;
 multibody! {
     mod leg {
         port hip: Frame;
-        param side = 1.0;
         /// [N m] at the hip's two hinges, the knee's crank and the ankle's
         input torque: [Scalar; 4];
         const TILT: Vec3 = [0.3, 0.2, 1.0];
-        body yoke { mass: 0.8, com: [0.01, 0.02 * side, -0.02], inertia: inertia(0.002, 0.0021, 0.0015, 0.0001, 0.0, -0.0002) }
-        body thigh { mass: 4.0, com: [0.005, 0.01 * side, -0.17], inertia: inertia(0.06, 0.062, 0.009, 0.0003, 0.0011, -0.0006) }
+        body yoke { mass: 0.8, com: [0.01, 0.02, -0.02], inertia: inertia(0.002, 0.0021, 0.0015, 0.0001, 0.0, -0.0002) }
+        body thigh { mass: 4.0, com: [0.005, 0.01, -0.17], inertia: inertia(0.06, 0.062, 0.009, 0.0003, 0.0011, -0.0006) }
         body knee_crank { mass: 0.15, com: [-0.02, 0.003, 0.0], inertia: diag(0.00002, 0.0001, 0.0001) }
         body knee_rod { mass: 0.2, com: [0.001, 0.0, -0.175], inertia: diag(0.002, 0.002, 0.00001) }
         body shank { mass: 2.5, com: [0.004, -0.002, -0.16], inertia: inertia(0.035, 0.0355, 0.003, 0.0001, 0.0007, 0.0002) }
@@ -20,7 +19,7 @@ multibody! {
         body foot { mass: 0.9, com: [0.04, 0.0, -0.04], inertia: inertia(0.0012, 0.004, 0.0042, 0.0, 0.0005, 0.0) }
         body toe { mass: 0.2, com: 0.03 * X, inertia: diag(0.0001, 0.0002, 0.0002) }
         joint roll: Revolute { parent: hip.rotated(Y, 0.3), child: yoke, axis: X }
-        joint pitch: Revolute { parent: yoke, child: thigh, axis: [0.1 * side, 1.0, 0.2] }
+        joint pitch: Revolute { parent: yoke, child: thigh, axis: [0.1, 1.0, 0.2] }
         joint knee_motor: Revolute { parent: thigh.at([-0.01, 0.03, -0.05]).rotated(TILT, 0.4), child: knee_crank, axis: Y, armature: 0.011 }
         joint knee_hinge: Revolute { parent: knee_crank.at(-0.05 * X), child: knee_rod, axis: Y }
         joint knee: Revolute { parent: thigh.at([-0.01, 0.03, -0.05]).rotated(TILT, 0.4).at([0.01, -0.03, -0.35]), child: shank, axis: Y }
@@ -42,23 +41,21 @@ multibody! {
         solve (knee_hinge, knee) from knee_coupling { cos(knee_motor.angle + knee_hinge.angle - knee.angle) > 0.0 }
         solve (ankle_hinge, ankle) from ankle_coupling { cos(ankle_motor.angle + ankle_hinge.angle - ankle.angle) > 0.0 }
     }
-    pub mod walker {
-        const SIDES: [Scalar; 2] = [1.0, -1.0];
+    pub mod hopper {
         world { gravity: -9.81 * Z }
         formulation { constraints: Reduced }
         body pelvis { mass: 12.0, com: [0.01, 0.0, 0.12], inertia: inertia(0.21, 0.17, 0.13, 0.002, -0.006, 0.001) }
         joint float: Free { parent: ground, child: pelvis }
-        part legs: [leg; 2] = |i| leg { hip: pelvis.at([0.02, 0.1 * SIDES[i], -0.05]), side: SIDES[i] };
+        part leg: leg { hip: pelvis.at([0.02, -0.1, -0.05]) };
         emit forward_dynamics, inverse_dynamics;
     }
     /// The same with all coordinates in the state.
-    pub mod walker_held {
-        const SIDES: [Scalar; 2] = [1.0, -1.0];
+    pub mod hopper_held {
         world { gravity: -9.81 * Z }
         formulation { constraints: Multipliers }
         body pelvis { mass: 12.0, com: [0.01, 0.0, 0.12], inertia: inertia(0.21, 0.17, 0.13, 0.002, -0.006, 0.001) }
         joint float: Free { parent: ground, child: pelvis }
-        part legs: [leg; 2] = |i| leg { hip: pelvis.at([0.02, 0.1 * SIDES[i], -0.05]), side: SIDES[i] };
+        part leg: leg { hip: pelvis.at([0.02, -0.1, -0.05]) };
         emit forward_dynamics;
     }
 }
