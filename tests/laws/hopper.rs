@@ -1,10 +1,14 @@
 //! A leg whose joints are turned through four-bars: articulated bodies with the loops embedded, against multipliers.
 
-use multibody::nalgebra::{UnitQuaternion, Vector3};
+use multibody::nalgebra::{SVector, UnitQuaternion, Vector3};
 use multibody::{Pose, Projection, Twist};
 use multibody_tests::models::hopper::{hopper, hopper_held};
 use multibody_tests::support::compare::mixed;
 use multibody_tests::support::random::Random;
+
+fn vector(random: &mut Random, size: f64) -> Vector3<f64> {
+    Vector3::from_fn(|_, _| size * random.unit())
+}
 
 #[test]
 fn a_leg_on_linkages_moves_as_with_multipliers() {
@@ -12,10 +16,12 @@ fn a_leg_on_linkages_moves_as_with_multipliers() {
     let (model, held) = (hopper::Model::<f64>::default(), hopper_held::Model::<f64>::default());
     let mut seen = 0;
     for _ in 0..40 {
-        let mut vector = |size: f64| Vector3::from_fn(|_, _| size * random.unit());
         let mut state = hopper_held::State::default();
-        state.q.float = Pose { position: vector(2.0), orientation: UnitQuaternion::from_scaled_axis(vector(2.0)) };
-        state.v.float = Twist { linear: vector(1.0), angular: vector(2.0) };
+        state.q.float = Pose {
+            position: vector(&mut random, 2.0),
+            orientation: UnitQuaternion::from_scaled_axis(vector(&mut random, 2.0)),
+        };
+        state.v.float = Twist { linear: vector(&mut random, 1.0), angular: vector(&mut random, 2.0) };
         let mut input = hopper_held::Input::default();
         let (q, v) = (&mut state.q.leg, &mut state.v.leg);
         [q.roll, q.pitch] = random.units().map(|x: f64| 3.0 * x);
@@ -49,6 +55,23 @@ fn a_leg_on_linkages_moves_as_with_multipliers() {
         let of_leg = [leg.roll, leg.pitch, leg.knee_motor, leg.ankle_motor];
         let left = of(&needed.float).into_iter().chain(of_leg).fold(0.0_f64, |most, x| most.max(x.abs()));
         assert!(left <= 1e-9, "{left:e}");
+        let (got, want) = (model.outputs(0.0, &own, &own_input).felt, held.outputs(0.0, &state, &input).felt);
+        let error = (got - want).norm() / (1.0 + want.norm());
+        assert!(error <= 1e-9, "{got} instead of {want}, error {error:e}");
+        // A blow at the trunk and at all coordinates of the leg that are in both states.
+        let (mut blow, mut held_blow) = (hopper::Velocity::default(), hopper_held::Velocity::default());
+        blow.float = Twist { linear: vector(&mut random, 5.0), angular: vector(&mut random, 1.0) };
+        let of_leg: [f64; 4] = random.units();
+        (blow.leg.roll, blow.leg.pitch, blow.leg.knee_motor, blow.leg.ankle_motor) = of_leg.into();
+        held_blow.float = blow.float;
+        let leg = &mut held_blow.leg;
+        (leg.roll, leg.pitch, leg.knee_motor, leg.ankle_motor) = of_leg.into();
+        let (got, want) = (model.impulse(&own.q, &blow), held.impulse(&state.q, &held_blow, &SVector::zeros()).v);
+        let (mut a, mut b) = (of(&got.float), of(&want.float));
+        a.extend([got.leg.roll, got.leg.pitch, got.leg.knee_motor, got.leg.ankle_motor]);
+        b.extend([want.leg.roll, want.leg.pitch, want.leg.knee_motor, want.leg.ankle_motor]);
+        let error = mixed(&a, &b);
+        assert!(error <= 1e-9, "{a:?} instead of {b:?}, error {error:e}");
         seen += 1;
     }
     assert!(seen > 20, "{seen}");

@@ -47,7 +47,9 @@ multibody! {
         body pelvis { mass: 12.0, com: [0.01, 0.0, 0.12], inertia: inertia(0.21, 0.17, 0.13, 0.002, -0.006, 0.001) }
         joint float: Free { parent: ground, child: pelvis }
         part leg: leg { hip: pelvis.at([0.02, -0.1, -0.05]) };
-        emit forward_dynamics, inverse_dynamics;
+        /// [m/s^2] of a sensor that sits askew on the trunk
+        output felt = pelvis.at([0.1, 0.05, 0.2]).acceleration;
+        emit forward_dynamics, inverse_dynamics, impulse;
     }
     /// The same with all coordinates in the state.
     pub mod hopper_held {
@@ -56,6 +58,7 @@ multibody! {
         body pelvis { mass: 12.0, com: [0.01, 0.0, 0.12], inertia: inertia(0.21, 0.17, 0.13, 0.002, -0.006, 0.001) }
         joint float: Free { parent: ground, child: pelvis }
         part leg: leg { hip: pelvis.at([0.02, -0.1, -0.05]) };
-        emit forward_dynamics;
+        output felt = pelvis.at([0.1, 0.05, 0.2]).acceleration;
+        emit forward_dynamics, impulse;
     }
 }

@@ -107,7 +107,7 @@ impl Deriving<'_> {
         if floats(self.model) {
             candidates.extend(self.candidate(FLOATING, self.floating(), &[], &mut all)?);
         }
-        Ok(candidates)
+        self.with_embedded(candidates, all)
     }
 
     fn floating(&self) -> Choices {

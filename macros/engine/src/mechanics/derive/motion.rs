@@ -16,7 +16,7 @@ use crate::model::types::Output;
 use crate::symbolic::graph::Scalar;
 
 use super::{
-    AXES, Candidate, Deriving, EMBEDDED, METHODS, MOST_COMPOSITE, MOST_STRUT_WAYS, articulates, floats, freedoms,
+    AXES, Candidate, Deriving, EMBEDDED, Found, METHODS, MOST_COMPOSITE, MOST_STRUT_WAYS, articulates, floats, freedoms,
 };
 
 impl<'m> Deriving<'m> {
@@ -64,7 +64,7 @@ impl<'m> Deriving<'m> {
             let name = METHODS[1].1[0];
             candidates
                 .extend(self.accelerated(way, |e, reduction| Some((name, e.accelerations_on_balls(reduction)?)))?);
-            candidates = self.embedded(way, candidates)?;
+            candidates = self.with_embedded(candidates, all)?;
         }
         for at in 0..MOST_STRUT_WAYS {
             let found = self.accelerated(self.way(), |e, reduction| {
@@ -83,22 +83,37 @@ impl<'m> Deriving<'m> {
         Ok(candidates)
     }
 
-    /// With those that embed loops: in common axes only where links' own are worth it, and the model is not large. What takes a good deal more is
-    /// left out.
-    fn embedded(&mut self, way: Choices, mut candidates: Vec<Candidate>) -> Result<Vec<Candidate>, Vec<Complaint>> {
+    /// With those that embed loops, where some are closed before the ground: in common axes only where links' own are worth it, and the model is
+    /// not large. What takes a good deal more is left out.
+    pub(super) fn with_embedded(
+        &mut self,
+        mut candidates: Vec<Candidate>,
+        mut f: impl FnMut(&mut Equations<'m>) -> Found,
+    ) -> Result<Vec<Candidate>, Vec<Complaint>> {
         let [own, common @ ..] = EMBEDDED;
-        let found = self.accelerated(way, |e, reduction| Some((own, e.accelerations_embedded(reduction)?)))?;
-        let Some(found) = found else { return Ok(candidates) };
+        let way = Choices { method: Method::Articulated, ..self.way() };
+        let Some(found) = self.embedding(own, way, &mut f)? else { return Ok(candidates) };
         let least = candidates.iter().map(|candidate| self.weight(&candidate.1.list)).min();
         let pays = least.is_none_or(|least| self.weight(&found.1.list) < least);
         let pays = pays && freedoms(self.model) <= MOST_COMPOSITE;
         candidates.push(found);
         for (axes, name) in AXES.into_iter().skip(1).zip(common).filter(|_| pays) {
-            let way = Choices { axes, ..way };
-            let found = self.accelerated(way, |e, reduction| Some((name, e.accelerations_embedded(reduction)?)))?;
-            candidates.extend(found);
+            candidates.extend(self.embedding(name, Choices { axes, ..way }, &mut f)?);
         }
         Ok(self.promising(candidates))
+    }
+
+    /// One that embeds loops, if it is another way.
+    fn embedding(
+        &mut self,
+        name: &'static str,
+        way: Choices,
+        f: &mut impl FnMut(&mut Equations<'m>) -> Found,
+    ) -> Result<Option<Candidate>, Vec<Complaint>> {
+        self.maybe(way, |e| {
+            let reduction = e.reduce()?;
+            if e.embeds(&reduction) { Ok(Some((name, f(e)?))) } else { Ok(None) }
+        })
     }
 
     /// What knows accelerations of some models only, without multipliers.
@@ -111,7 +126,7 @@ impl<'m> Deriving<'m> {
         self.maybe(way, |e| {
             let reduction = e.reduce()?;
             let Some((name, accelerations)) = f(e, &reduction) else { return Ok(None) };
-            let solved = ConstrainedMotion { accelerations, multipliers: Vec::new(), rank: None };
+            let solved = ConstrainedMotion::without_rows(accelerations);
             let rates: Vec<Scalar> = model.states.iter().map(|state| e.scalar(&state.rate)).collect();
             let rates = e.put_in_all(&reduction, &solved, &rates);
             let results = solved.results(rates, e.moved(&reduction));
@@ -172,15 +187,15 @@ impl<'m> Deriving<'m> {
                 None => equations.finish(&reduction, &results),
             }))
         };
-        let articulates = open && needs.accelerations && articulates(model, &kept);
+        let articulates = needs.accelerations && articulates(model, &kept);
         let mut ways = Vec::new();
-        if !(articulates && super::freedoms(model) > MOST_COMPOSITE) {
+        if !(open && articulates && super::freedoms(model) > MOST_COMPOSITE) {
             ways.push((Style::World, Method::Composite, "world axes"));
             if needs.frames {
                 ways.push((Style::Nested, Method::Composite, "link axes"));
             }
         }
-        if articulates {
+        if open && articulates {
             ways.push((Style::World, Method::Articulated, "world axes, articulated body"));
             if needs.frames {
                 ways.push((Style::Nested, Method::Articulated, "link axes, articulated body"));
@@ -190,6 +205,20 @@ impl<'m> Deriving<'m> {
         for (style, method, name) in ways {
             candidates.extend(self.candidate(name, Choices { style, method, ..self.way() }, &kept, &mut all)?);
         }
-        Ok(candidates)
+        if open || !articulates {
+            return Ok(candidates);
+        }
+        let embedded = [
+            (Style::World, "world axes, articulated body, loops embedded"),
+            (Style::Nested, "link axes, articulated body, loops embedded"),
+        ];
+        let mut found = false;
+        for (style, name) in embedded.into_iter().take(if needs.frames { 2 } else { 1 }) {
+            let way = Choices { style, method: Method::Articulated, ..self.way() };
+            let candidate = self.embedding(name, way, &mut all)?;
+            found |= candidate.is_some();
+            candidates.extend(candidate);
+        }
+        Ok(if found { self.promising(candidates) } else { candidates })
     }
 }

@@ -36,6 +36,11 @@ pub(in crate::mechanics) struct ConstrainedMotion {
 pub(in crate::mechanics) struct Residuals(HashMap<LoopClosure, Rc<[Scalar]>>);
 
 impl ConstrainedMotion {
+    /// Where no equation keeps a multiplier.
+    pub(in crate::mechanics) fn without_rows(accelerations: Vec<Scalar>) -> Self {
+        ConstrainedMotion { accelerations, multipliers: Vec::new(), rank: None }
+    }
+
     /// Accelerations with the rates of own states, those of positions where velocities are others, multipliers and the rank of their
     /// system.
     pub(in crate::mechanics) fn results(&self, rates: Vec<Scalar>, moved: Vec<Scalar>) -> Results<Scalar> {
@@ -258,6 +263,9 @@ impl Equations<'_> {
 
     /// Forward dynamics.
     pub(in crate::mechanics) fn solve_constrained(&mut self, reduction: &Reduction) -> ConstrainedMotion {
+        if self.scene.way.method == Method::Articulated && self.embeds(reduction) {
+            return ConstrainedMotion::without_rows(self.accelerations_embedded(reduction));
+        }
         self.system(reduction).2
     }
 
@@ -275,6 +283,9 @@ impl Equations<'_> {
     /// The jump of velocities under an impulse: the same system with the impulse for the forces, and given rates of the
     /// equations.
     pub(in crate::mechanics) fn constrained_jump(&mut self, reduction: &Reduction) -> ConstrainedMotion {
+        if self.scene.way.method == Method::Articulated && self.embeds(reduction) {
+            return ConstrainedMotion::without_rows(self.jump_embedded(reduction));
+        }
         let matrix = self.reduced_mass_matrix(reduction);
         let jacobian = self.rows(reduction).jacobian;
         let (impulses, rates) = (self.scene.symbols.impulses.clone(), self.scene.symbols.rates.clone());

@@ -60,6 +60,7 @@ impl<'a> Checker<'a, '_> {
                     let message = format!("{what} has no method `{name}`");
                     let help = match name.as_str() {
                         "to_radians" | "to_degrees" => "angles are in radians; `deg(30.0)` is thirty degrees",
+                        "inverse" | "transpose" => "`frame.express(v)` is a vector in the axes of a frame",
                         _ if OF_FRAME.contains(&name.as_str()) => "frames have it: `ground`, bodies, ports",
                         _ => {
                             self.report.error(call.method.span(), message);
