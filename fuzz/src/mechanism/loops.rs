@@ -38,6 +38,12 @@ impl Mechanism {
                 m.outputs = random.chance(70);
                 m.formulate(random);
                 m.ask_twice(random);
+                if random.chance(40) {
+                    m.carry(random);
+                }
+                if m.tail.contains("Reduced") && random.chance(50) {
+                    m.emit.push("impulse");
+                }
                 return m;
             }
         }

@@ -4,6 +4,7 @@
 //! same data, and never what the engine made of the text.
 
 pub mod beside;
+mod carried;
 pub mod carts;
 pub mod draw;
 pub mod expression;
@@ -58,6 +59,10 @@ pub struct Mechanism {
     pub tail: String,
     /// Whether outputs of bodies and joints are written, and looked at.
     pub outputs: bool,
+    /// Joints whose reactions are not among them.
+    pub unread: Vec<usize>,
+    /// Whether all else is on the first body.
+    pub carried: bool,
     /// Whether those of wheels and blades are that don't read multipliers.
     pub contacts: bool,
     /// Those that do.
@@ -271,6 +276,11 @@ impl Mechanism {
     pub fn looped(&self) -> bool {
         let is_tied = !self.couplings.is_empty() || !self.drives.is_empty();
         self.joints.len() > self.bodies.len() || !self.rods.is_empty() || !self.held.is_empty() || is_tied
+    }
+
+    /// Joints whose reactions are written, in order.
+    pub fn read_joints(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..self.joints.len()).filter(|joint| !self.unread.contains(joint))
     }
 
     /// Whether a body hangs on a joint, at whatever distance.

@@ -189,7 +189,7 @@ impl Mechanism {
     }
 
     /// Every expression that stands for itself.
-    fn expressions(&mut self, f: &mut dyn FnMut(&mut Expr)) {
+    pub(super) fn expressions(&mut self, f: &mut dyn FnMut(&mut Expr)) {
         for body in &mut self.bodies {
             body.mass.visit(f);
             body.com.visit(f);

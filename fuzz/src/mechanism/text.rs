@@ -98,7 +98,7 @@ impl Mechanism {
                 writeln!(out, "    output alpha{k} = b{k}.angular_acceleration;")?;
                 writeln!(out, "    output jacobian{k} = b{k}.jacobian;")?;
             }
-            for k in 0..self.joints.len() {
+            for k in self.read_joints() {
                 writeln!(out, "    output reaction{k} = j{k}.reaction;")?;
             }
         }

@@ -9,21 +9,26 @@ use multibody_engine::model::types::Coordinate;
 
 use nalgebra::{DMatrix, DVector};
 
+use super::excuses::is_redundant;
 use super::{At, Findings, Verdict, outputs, speeds};
 use crate::algebra::{V3, apply, extremes, norm, quaternion, transposed};
 use crate::closed::{Equations, accelerations, settled, state, turns_beside};
 use crate::mechanism::expression::Point;
 use crate::mechanism::{Kind, Mechanism};
 use crate::plain::{Motion, Plain, displaced, split};
-use crate::programs::{Programs, Values, Way};
+use crate::programs::{Failure, Programs, Values, Way};
 use crate::random::Random;
 
 const TOLERANCE: f64 = 1e-7;
 
-/// Compiles it and looks at it at several closed states.
+/// Compiles it and looks at it at several closed states. Of what has to be refused, all else is looked at.
 pub fn check(mechanism: &Mechanism, seed: u64) -> Verdict {
     let programs = match Programs::new(&mechanism.text()) {
         Ok(programs) => programs,
+        Err(Failure::Refused(said)) => match without(mechanism, &said) {
+            Some(rest) => return check(&rest, seed),
+            None => return Verdict::Refused(said),
+        },
         Err(failure) => return failure.into(),
     };
     let mut random = Random::new(seed);
@@ -46,6 +51,26 @@ pub fn check(mechanism: &Mechanism, seed: u64) -> Verdict {
         }
     }
     findings.verdict()
+}
+
+/// The mechanism without what is refused, if that is reactions that loops share, or jumps where there is an iteration.
+fn without(mechanism: &Mechanism, said: &[String]) -> Option<Mechanism> {
+    let mut rest = mechanism.clone();
+    for text in said {
+        if text.contains("`impulse` knows no guess") {
+            rest.emit.retain(|word| *word != "impulse");
+            continue;
+        }
+        let named = ["a reaction of `j", "the output `reaction"].iter().find_map(|words| text.strip_prefix(words))?;
+        let (joint, why) = named.split_once('`')?;
+        let joint: usize = joint.parse().ok()?;
+        if !why.contains("depends on how loops share their load") || rest.unread.contains(&joint) {
+            return None;
+        }
+        rest.unread.push(joint);
+    }
+    let reads_more = !rest.unread.is_empty();
+    (!said.is_empty() && (!reads_more || is_redundant(mechanism))).then_some(rest)
 }
 
 /// Some whole turns more, of coordinates of the state of which equations know the sine alone.
@@ -206,7 +231,7 @@ fn look(m: &Mechanism, programs: &Programs, point: &Point, findings: &mut Findin
         return;
     }
     // The branch that was chosen.
-    if m.tail.contains("solve") && point.q[2][0].sin() < 0.05 {
+    if m.tail.contains("solve") && point.q[2 + usize::from(m.carried)][0].sin() < 0.05 {
         return;
     }
     let guesses = guesses(m, programs, &point);
@@ -269,9 +294,34 @@ fn look(m: &Mechanism, programs: &Programs, point: &Point, findings: &mut Findin
             let zero = vec![0.0; got.len()];
             findings.compare("inverse dynamics (left)", &got, &zero, plain.efforts().1 / ratio, TOLERANCE);
         }
+        if m.tail.contains("Reduced") && !is_driven {
+            let momenta = momenta(m, &found.equations, &state, &point);
+            let struck =
+                Anywhere { tree: At { momenta, point: &point }, guesses: Vec::new(), speeds: Vec::new(), ..values };
+            if let Some(got) = programs.run_by(way, FunctionKind::Impulse, &struck) {
+                findings.compare("impulse", &got, &v, quick / ratio, TOLERANCE);
+            }
+        }
     }
     let of = outputs::Of { m, point: &point, plain: &plain, found: &found, reach, quick, size: fastest / ratio, ratio };
     outputs::compare(&of, programs, &mut values, findings);
+}
+
+/// Those of the coordinates of the state, joint by joint: what stops the mechanism, since others follow by G v = 0.
+fn momenta(m: &Mechanism, equations: &Equations, state: &[(usize, usize)], point: &Point) -> Vec<Vec<f64>> {
+    let places: Vec<(usize, usize)> = (0..m.bodies.len())
+        .flat_map(|joint| (0..m.joints[joint].kind.freedoms()).map(move |component| (joint, component)))
+        .collect();
+    let (own, others): (Vec<usize>, Vec<usize>) = (0..places.len()).partition(|&k| state.contains(&places[k]));
+    let all = Plain::mass_matrix(m, point) * DVector::from(point.v.concat());
+    let slope = |of: &[usize]| equations.slope.select_columns(of);
+    let follow = slope(&others).svd(true, true).solve(&-slope(&own), 1e-9).expect("both factors are asked for");
+    let mut momenta = vec![0.0; places.len()];
+    for (number, &k) in own.iter().enumerate() {
+        let felt: f64 = others.iter().enumerate().map(|(row, &other)| follow[(row, number)] * all[other]).sum();
+        momenta[k] = all[k] + felt;
+    }
+    split(m, &momenta)
 }
 
 /// The kinetic energy by a mass matrix.

@@ -1,5 +1,7 @@
 //! Outputs of closed states: motions of bodies, reactions, contacts and multipliers.
 
+use std::collections::HashMap;
+
 use multibody_engine::contracts::function::FunctionKind;
 use multibody_engine::contracts::symbol::Symbol;
 
@@ -51,8 +53,8 @@ pub(super) fn compare(of: &Of<'_>, programs: &Programs, values: &mut Anywhere<'_
     if of.m.outputs {
         let bodies = reader.take(of.m.bodies.len() * (24 + 6 * freedoms));
         compare_bodies(of, programs, values, bodies, findings);
-        let reactions = reader.take(6 * of.m.joints.len());
-        balance(of, reactions, findings);
+        let reactions: HashMap<usize, &[f64]> = of.m.read_joints().map(|joint| (joint, reader.take(6))).collect();
+        balance(of, &reactions, findings);
     }
     if of.m.contacts {
         contacts(of, &mut reader, findings);
@@ -123,8 +125,8 @@ fn push(of: &Of<'_>, number: usize) -> Option<(V3, V3)> {
     Some((touching.place, force))
 }
 
-/// Reactions with all forces at a body, those of wheels and rods too, are what its motion takes.
-fn balance(of: &Of<'_>, reactions: &[f64], findings: &mut Findings) {
+/// Reactions with all forces at a body, those of wheels and rods too, are what its motion takes; of bodies all of whose joints are read.
+fn balance(of: &Of<'_>, reactions: &HashMap<usize, &[f64]>, findings: &mut Findings) {
     let Of { m, plain, .. } = *of;
     // At which bodies these push, where, and how.
     let mut pushes: Vec<(Option<usize>, V3, V3)> = Vec::new();
@@ -141,7 +143,15 @@ fn balance(of: &Of<'_>, reactions: &[f64], findings: &mut Findings) {
         pushes.extend([(rod.between[1].body, b, force), (rod.between[0].body, a, scaled(-1.0, force))]);
     }
     let size = (plain.efforts().1 * of.reach + of.size) / of.ratio;
+    let holds = |joint: usize, body: usize| {
+        m.joints
+            .get(joint)
+            .is_some_and(|joint| [&joint.parent, &joint.child].iter().any(|frame| frame.body == Some(body)))
+    };
     for body in 0..m.bodies.len() {
+        if m.unread.iter().any(|&joint| holds(joint, body)) {
+            continue;
+        }
         let (need, mut have) = (plain.needed(body), ([0.0; 3], [0.0; 3]));
         let mut largest = size;
         let mut add = |place: V3, force: V3, moment: V3| {
@@ -150,7 +160,8 @@ fn balance(of: &Of<'_>, reactions: &[f64], findings: &mut Findings) {
             largest = largest.max(dot(force, force).sqrt() + dot(turned, turned).sqrt());
         };
         for (k, joint) in m.joints.iter().enumerate() {
-            let part = |at: usize| [0, 1, 2].map(|i| reactions.get(6 * k + at + i).copied().unwrap_or(f64::NAN));
+            let reaction = reactions.get(&k).copied().unwrap_or_default();
+            let part = |at: usize| [0, 1, 2].map(|i| reaction.get(at + i).copied().unwrap_or(f64::NAN));
             let on_child = joint.child.body == Some(body);
             if !on_child && joint.parent.body != Some(body) {
                 continue;
