@@ -314,6 +314,9 @@ fn momenta(m: &Mechanism, equations: &Equations, state: &[(usize, usize)], point
         .collect();
     let (own, others): (Vec<usize>, Vec<usize>) = (0..places.len()).partition(|&k| state.contains(&places[k]));
     let all = Plain::mass_matrix(m, point) * DVector::from(point.v.concat());
+    if own.is_empty() || others.is_empty() {
+        return split(m, all.as_slice());
+    }
     let slope = |of: &[usize]| equations.slope.select_columns(of);
     let follow = slope(&others).svd(true, true).solve(&-slope(&own), 1e-9).expect("both factors are asked for");
     let mut momenta = vec![0.0; places.len()];
