@@ -73,16 +73,25 @@ pub struct Complaint {
 }
 
 /// Splits a model's coordinates and equations. Which components of a way between points are left out depends on the axes, and with it
-/// whether what is read of reactions is determined: those are taken in which it is.
+/// whether what is read of reactions is determined, and whether what is kept is enough at all poses: those are taken in which it is.
 pub fn analyse(model: &Model) -> Result<Structure, Vec<Complaint>> {
     let structure = analyse_in(model, Writing::PLAIN)?;
     let complaints = stress::complaints(model, &structure, Writing::PLAIN);
-    if complaints.is_empty() {
-        return Ok(structure);
+    let mut best = complaints.is_empty().then(|| (written::steadiness(model, &structure), structure));
+    for axes in [ClosedIn::ParentBase, ClosedIn::Parent, ClosedIn::Child] {
+        if best.as_ref().is_some_and(|best| best.0 >= written::STEADY) {
+            break;
+        }
+        let Ok(other) = analyse_in(model, Writing { axes, ..Writing::PLAIN }) else { continue };
+        if !stress::are_determined(model, &other, other.writing) {
+            continue;
+        }
+        let steadiness = written::steadiness(model, &other);
+        if best.as_ref().is_none_or(|best| steadiness > best.0) {
+            best = Some((steadiness, other));
+        }
     }
-    let others = [ClosedIn::ParentBase, ClosedIn::Parent, ClosedIn::Child];
-    let mut others = others.into_iter().filter_map(|axes| analyse_in(model, Writing { axes, ..Writing::PLAIN }).ok());
-    others.find(|other| stress::are_determined(model, other, other.writing)).ok_or(complaints)
+    best.map(|best| best.1).ok_or(complaints)
 }
 
 fn analyse_in(model: &Model, writing: Writing) -> Result<Structure, Vec<Complaint>> {

@@ -51,6 +51,12 @@ impl Mechanism {
 
     /// The same, or why the formulation is refused.
     pub(crate) fn try_case(&self, formulation: &str, relative: bool) -> Result<Case, String> {
+        let reactions = (0..self.joints.len()).map(|k| format!("output reaction_{k} = {}.reaction;", self.joints[k]));
+        self.with_motion(&format!("{formulation} {}", reactions.collect::<String>()), relative)
+    }
+
+    /// Without reactions, which loops may share.
+    pub(crate) fn with_motion(&self, formulation: &str, relative: bool) -> Result<Case, String> {
         let mut text = format!("{} {formulation}", self.items);
         for (k, body) in self.bodies.iter().enumerate() {
             text += &format!(
@@ -58,9 +64,6 @@ impl Mechanism {
                 output spin_{k} = {body}.angular_velocity; output acceleration_{k} = {body}.acceleration;
                 output spin_rate_{k} = {body}.angular_acceleration;"
             );
-        }
-        for (k, joint) in self.joints.iter().enumerate() {
-            text += &format!("output reaction_{k} = {joint}.reaction;");
         }
         for (k, (_, _, address)) in self.coordinates.iter().enumerate().filter(|_| relative) {
             text += &format!("output coordinate_{k} = [{address}, {address}.rate];");
@@ -81,7 +84,12 @@ impl Mechanism {
             let value = point.get(symbol);
             point.set(symbol, greatest * value);
         }
-        let point = closed(case, &point)?;
+        self.motion_from(case, &point)
+    }
+
+    /// One from a point near by, in which coordinates that no loop concerns stay.
+    pub(crate) fn motion_from(&self, case: &Case, point: &Point) -> Option<Motion> {
+        let point = closed(case, point)?;
         let outputs = case.outputs(&point);
         let bodies = (0..self.bodies.len()).map(|k| {
             let get = |what: &str| outputs[&format!("{what}_{k}")].clone();

@@ -47,4 +47,5 @@ mod support;
 mod systems;
 mod tables;
 mod translations;
+mod turning_planes;
 mod worked;
