@@ -283,6 +283,15 @@ impl Mechanism {
         (0..self.joints.len()).filter(|joint| !self.unread.contains(joint))
     }
 
+    /// Whether something is held on both sides of a joint, so that what it bears is not to be told from the tree alone.
+    pub fn is_in_a_loop(&self, joint: usize) -> bool {
+        let is_beyond = |frame: &Frame| frame.body.is_some_and(|body| self.is_beyond(body, joint));
+        let closings = self.cuts().iter().map(|cut| [&cut.parent, &cut.child]);
+        let rods = self.rods.iter().map(|rod| rod.between.each_ref());
+        let mut ends = closings.chain(rods).chain(self.held.iter().filter_map(Held::frames));
+        joint >= self.bodies.len() || ends.any(|[a, b]| is_beyond(a) != is_beyond(b))
+    }
+
     /// Whether a body hangs on a joint, at whatever distance.
     pub fn is_beyond(&self, body: usize, joint: usize) -> bool {
         body == joint || self.joints[body].parent.body.is_some_and(|parent| self.is_beyond(parent, joint))

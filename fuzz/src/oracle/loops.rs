@@ -64,7 +64,8 @@ fn without(mechanism: &Mechanism, said: &[String]) -> Option<Mechanism> {
         let named = ["a reaction of `j", "the output `reaction"].iter().find_map(|words| text.strip_prefix(words))?;
         let (joint, why) = named.split_once('`')?;
         let joint: usize = joint.parse().ok()?;
-        if !why.contains("depends on how loops share their load") || rest.unread.contains(&joint) {
+        let is_true = why.contains("depends on how loops share their load") && mechanism.is_in_a_loop(joint);
+        if !is_true || rest.unread.contains(&joint) {
             return None;
         }
         rest.unread.push(joint);

@@ -15,7 +15,7 @@ const TILTED: &str = "
     body one { mass: 1.0, com: [0.5, 0.1, 0.2], inertia: inertia(0.5, 0.6, 0.7, 0.02, -0.03, 0.01) }
     body two { mass: 0.7, com: [1.1, -0.2, 0.1], inertia: inertia(0.3, 0.2, 0.4, 0.01, 0.02, -0.01) }
     body three { mass: 1.3, com: [0.2, 0.3, -0.1], inertia: inertia(0.4, 0.5, 0.3, 0.03, 0.01, 0.02) }
-    joint tilt: Revolute { parent: ground.at([0.1, 0.2, 0.7]).rotated(Z, 0.4), child: carrier, axis: X }
+    joint tilt: Revolute { parent: ground.at([0.1, 0.2, 0.7]).rotated(Z, HEADING), child: carrier, axis: X }
     joint crank: Revolute { parent: carrier.at([0.2, 0.1, -0.3]), child: one, axis: Z }
     joint coupler: Revolute { parent: one.at(1.0 * X), child: two, axis: Z }
     joint follower: Revolute { parent: carrier.at([2.3, 0.4, -0.3]), child: three, axis: Z }
@@ -23,7 +23,14 @@ const TILTED: &str = "
 
 #[test]
 fn equations_are_enough_wherever_the_plane_stands() {
-    let mechanism = Mechanism::new(TILTED);
+    // Askew to the world, and about its axes.
+    for heading in [0.4, 0.0, FRAC_PI_2] {
+        tilt(heading);
+    }
+}
+
+fn tilt(heading: f64) {
+    let mechanism = Mechanism::new(&TILTED.replace("HEADING", &format!("{heading:?}")));
     let base = mechanism.with_motion("formulation { constraints: Multipliers }", true).expect("a derivation");
     let tilt = Symbol::Position { joint: base.joint("tilt"), component: 0 };
     let mut seen = 0;
@@ -45,7 +52,7 @@ fn equations_are_enough_wherever_the_plane_stands() {
                 let (found, wanted) = (case.outputs(&of), base.outputs(&from));
                 for k in 0..4 {
                     for name in [format!("acceleration_{k}"), format!("spin_rate_{k}")] {
-                        let what = format!("{formulation}, {off:e} beside {upright}, {name}");
+                        let what = format!("heading {heading}, {formulation}, {off:e} beside {upright}, {name}");
                         close(&what, &found[&name], &wanted[&name], 1e-9);
                         seen += 1;
                     }

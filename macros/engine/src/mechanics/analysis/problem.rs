@@ -196,14 +196,20 @@ impl Problem {
         self.equations.iter().position(|one| one.source == Source::Row(row))
     }
 
-    /// Of unit length over all columns. Gradients that vanish, as a cosine's does at one, stay zero and don't become noise.
-    pub(super) fn unit_row(&self, row: &[(usize, f64)]) -> Vec<f64> {
+    /// Over all columns.
+    pub(super) fn dense_row(&self, row: &[(usize, f64)]) -> Vec<f64> {
         let mut dense = vec![0.0; self.columns.len()];
         for &(column, entry) in row {
             if let Some(slot) = dense.get_mut(column) {
                 *slot += entry;
             }
         }
+        dense
+    }
+
+    /// Of unit length over all columns. Gradients that vanish, as a cosine's does at one, stay zero and don't become noise.
+    pub(super) fn unit_row(&self, row: &[(usize, f64)]) -> Vec<f64> {
+        let mut dense = self.dense_row(row);
         let norm = dense.iter().map(|x| x * x).sum::<f64>().sqrt();
         let factor = if norm > 1e-7 { 1.0 / norm } else { 0.0 };
         dense.iter_mut().for_each(|x| *x *= factor);

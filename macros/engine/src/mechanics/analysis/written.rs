@@ -15,6 +15,7 @@ use crate::model::types::{ConstraintKind, Coordinate, JointId, LoopClosure, Mode
 
 use super::problem::Problem;
 use super::rank;
+use super::singular::dot;
 use super::stress::are_determined;
 use super::tape::Values;
 
@@ -126,17 +127,23 @@ impl<'m> Writings<'m> {
         let mut values = Values::default();
         let equations: Vec<usize> = kept.iter().chain(&left_out).filter_map(|row| problem.equation_of(*row)).collect();
         let count = kept.iter().filter(|row| problem.equation_of(**row).is_some()).count();
-        let (mut least, mut greatest) = (f64::INFINITY, 0.0_f64);
+        let mut poses: Vec<Vec<Vec<f64>>> = Vec::with_capacity(self.structure.closed.len());
         for closed in &self.structure.closed {
             let at = problem.linearise(&problem.at(&closed.positions), &equations, &mut values);
-            let jacobian: Vec<Vec<f64>> = at.rows.iter().map(|row| problem.unit_row(row)).collect();
-            let all = rank::greatest_volume(&jacobian, count);
-            // A singular pose has no volume to share.
-            if all > 0.0 {
-                let share = rank::greatest_volume(&jacobian[..count], count) / all;
-                (least, greatest) = (least.min(share), greatest.max(share));
-            }
+            poses.push(at.rows.iter().map(|row| problem.dense_row(row)).collect());
         }
+        // One scale for all poses: what vanishes at one of them counts for nothing there.
+        for number in 0..equations.len() {
+            let longest = poses.iter().map(|rows| dot(&rows[number], &rows[number]).sqrt()).fold(0.0, f64::max);
+            let factor = if longest > 0.0 { 1.0 / longest } else { 0.0 };
+            poses.iter_mut().for_each(|rows| rows[number].iter_mut().for_each(|x| *x *= factor));
+        }
+        let volumes: Vec<[f64; 2]> =
+            poses.iter().map(|rows| [&rows[..count], rows].map(|rows| rank::greatest_volume(rows, count))).collect();
+        // A singular pose has no volume to share.
+        let regular = 1e-6 * volumes.iter().map(|one| one[1]).fold(0.0, f64::max);
+        let shares = volumes.iter().filter(|one| one[1] > regular).map(|[kept, all]| kept / all);
+        let (least, greatest) = shares.fold((f64::INFINITY, 0.0_f64), |(a, b), share| (a.min(share), b.max(share)));
         if greatest > 0.0 { least / greatest } else { 1.0 }
     }
 
