@@ -70,8 +70,8 @@ fn without(mechanism: &Mechanism, said: &[String]) -> Option<Mechanism> {
         }
         rest.unread.push(joint);
     }
-    let reads_more = !rest.unread.is_empty();
-    (!said.is_empty() && (!reads_more || is_redundant(mechanism))).then_some(rest)
+    let is_excused = rest.unread.is_empty() || is_redundant(mechanism);
+    (!said.is_empty() && is_excused).then_some(rest)
 }
 
 /// Some whole turns more, of coordinates of the state of which equations know the sine alone.

@@ -34,8 +34,8 @@ struct Own {
     steadiness: f64,
 }
 
-/// How steady what is kept has to be where there is a choice. In axes that go with the plane it is 0.7 and more in all models that were looked at,
-/// in others 0.01 and less.
+/// How steady what is kept has to be where there is a choice. Of rows of unit length the least share was 0.7 and more in axes that go with the plane,
+/// 0.01 and less in others, in all models that were looked at; as they are scaled here that was not measured.
 pub(super) const STEADY: f64 = 0.5;
 
 /// The least share of the volume that is kept over the greatest, in the axes of the analysis; one where nothing is left out of a way between points.
@@ -116,6 +116,7 @@ impl<'m> Writings<'m> {
         all.collect()
     }
 
+    /// The least share of the volume that is kept over the greatest, in these axes.
     fn steadiness_in(&self, writing: Writing) -> f64 {
         let (kept, _) = self.systems().swap_remove(0);
         let is_of_kept = |row: &&Row| kept.iter().any(|one| one.closing == row.closing);
@@ -138,13 +139,18 @@ impl<'m> Writings<'m> {
             let factor = if longest > 0.0 { 1.0 / longest } else { 0.0 };
             poses.iter_mut().for_each(|rows| rows[number].iter_mut().for_each(|x| *x *= factor));
         }
+        // Without a closed configuration nothing is known.
+        if poses.is_empty() {
+            return 1.0;
+        }
         let volumes: Vec<[f64; 2]> =
             poses.iter().map(|rows| [&rows[..count], rows].map(|rows| rank::greatest_volume(rows, count))).collect();
         // A singular pose has no volume to share.
         let regular = 1e-6 * volumes.iter().map(|one| one[1]).fold(0.0, f64::max);
         let shares = volumes.iter().filter(|one| one[1] > regular).map(|[kept, all]| kept / all);
         let (least, greatest) = shares.fold((f64::INFINITY, 0.0_f64), |(a, b), share| (a.min(share), b.max(share)));
-        if greatest > 0.0 { least / greatest } else { 1.0 }
+        // What has no volume anywhere is no choice.
+        if greatest > 0.0 { least / greatest } else { 0.0 }
     }
 
     /// By system, at every closed configuration.
