@@ -8,6 +8,7 @@
 
 mod absorption;
 mod checks;
+mod choice;
 mod closable;
 mod closed;
 mod closures;
@@ -32,6 +33,7 @@ pub mod singular;
 mod speeds;
 mod springs;
 mod statics;
+mod steadiness;
 mod stress;
 mod tape;
 mod teeth;
@@ -42,12 +44,11 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 use crate::model::site::{Site, Sited};
 use crate::model::types::{Coordinate, DriveTarget, Handling, JointId, LoopClosure, Model};
 
-use super::loops::constraints::{
-    self, ClosedIn, Writing, closings, coordinate_name, rate_rows, row_count, row_name, turns,
-};
+use super::loops::constraints::{self, closings, coordinate_name, rate_rows, row_count, row_name, turns};
 use super::loops::groups;
 use super::loops::structure::{Means, Role, Row, Step, Structure};
 use super::translate::{division, formulas};
+use choice::Choice;
 use closed::Sampled;
 use configurations::{Configuration, Effort, Found, follow};
 use linear::Elimination;
@@ -72,29 +73,15 @@ pub struct Complaint {
     pub help: Option<String>,
 }
 
-/// Splits a model's coordinates and equations. Which components of a way between points are left out depends on the axes, and with it
-/// whether what is read of reactions is determined, and whether what is kept is enough at all poses: those are taken in which it is.
+/// Splits a model's coordinates and equations.
 pub fn analyse(model: &Model) -> Result<Structure, Vec<Complaint>> {
-    let structure = analyse_in(model, Writing::PLAIN)?;
-    let complaints = stress::complaints(model, &structure, Writing::PLAIN);
-    let mut best = complaints.is_empty().then(|| (written::steadiness(model, &structure), structure));
-    for axes in [ClosedIn::ParentBase, ClosedIn::Parent, ClosedIn::Child] {
-        if best.as_ref().is_some_and(|best| best.0 >= written::STEADY) {
-            break;
-        }
-        let Ok(other) = analyse_in(model, Writing { axes, ..Writing::PLAIN }) else { continue };
-        if !stress::are_determined(model, &other, other.writing) {
-            continue;
-        }
-        let steadiness = written::steadiness(model, &other);
-        if best.as_ref().is_none_or(|best| steadiness > best.0) {
-            best = Some((steadiness, other));
-        }
-    }
-    best.map(|best| best.1).ok_or(complaints)
+    let mut structure = choice::structure(model)?;
+    structure.closures = closures::closures(model, &structure)?;
+    structure.assembly = closures::assembly(model, &structure)?;
+    Ok(structure)
 }
 
-fn analyse_in(model: &Model, writing: Writing) -> Result<Structure, Vec<Complaint>> {
+fn split(model: &Model, choice: Choice<'_>) -> Result<Structure, Vec<Complaint>> {
     formulas::complaints(model)?;
     let divided = division::complaints(model);
     if !divided.is_empty() {
@@ -104,7 +91,7 @@ fn analyse_in(model: &Model, writing: Writing) -> Result<Structure, Vec<Complain
     if !staying.is_empty() {
         return Err(staying);
     }
-    let mut structure = Structure { writing, ..Structure::open(model) };
+    let mut structure = Structure { writing: choice.writing, ..Structure::open(model) };
     structure.groups = groups::find(model);
     if model.cuts.is_empty() && model.constraints.is_empty() && model.drives.is_empty() && model.speeds.is_empty() {
         return Ok(structure);
@@ -117,11 +104,17 @@ fn analyse_in(model: &Model, writing: Writing) -> Result<Structure, Vec<Complain
     if !uncounted.is_empty() {
         return Err(uncounted);
     }
-    let mut analysis =
-        Analysis { model, complaints: Vec::new(), driven: HashMap::new(), steps: Vec::new(), samples: Vec::new() };
+    let mut analysis = Analysis {
+        model,
+        choice,
+        complaints: Vec::new(),
+        driven: HashMap::new(),
+        steps: Vec::new(),
+        samples: Vec::new(),
+    };
     analysis.drive();
     let looped = !model.cuts.is_empty() || !model.constraints.is_empty() || !model.speeds.is_empty();
-    let problem = looped.then(|| Problem::written(model, writing));
+    let problem = looped.then(|| Problem::written(model, choice.writing));
     if let Some(problem) = &problem {
         analysis.run(problem, &mut structure);
         analysis.check_held_drives(&structure);
@@ -152,13 +145,12 @@ fn analyse_in(model: &Model, writing: Writing) -> Result<Structure, Vec<Complain
     if !analysis.complaints.is_empty() {
         return Err(analysis.complaints);
     }
-    structure.closures = closures::closures(model, &structure)?;
-    structure.assembly = closures::assembly(model, &structure)?;
     Ok(structure)
 }
 
 struct Analysis<'m> {
     model: &'m Model,
+    choice: Choice<'m>,
     complaints: Vec<Complaint>,
     /// Coordinates that follow a drive, with its number.
     driven: HashMap<Coordinate, usize>,
@@ -220,7 +212,15 @@ impl<'m> Analysis<'m> {
             // With multipliers an equation more costs work and does no harm.
             let follows =
                 |independent: &[usize]| reduced && follow(problem, &group.equations, independent, &group.columns);
-            let ranked = ranked::ranked(&mut found, &rows, &formulas, follows);
+            let is_first =
+                |k: usize| row_of(problem, group.equations[k]).is_some_and(|row| self.choice.first.contains(&row));
+            let (first, later): (Vec<usize>, Vec<usize>) = rows.iter().partition(|&&k| is_first(k));
+            let order = [first, later].concat();
+            let mut ranked = ranked::ranked(&mut found, &order, &formulas, follows);
+            let is_whole = |&k: &usize| row_of(problem, k).is_some_and(|row| self.choice.whole.contains(&row));
+            if group.equations.iter().any(is_whole) {
+                ranked.keep_all(&found, &rows);
+            }
             looked.push(Looked { group, rows, found, ranked });
         }
         if reduced {

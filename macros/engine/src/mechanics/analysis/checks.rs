@@ -6,7 +6,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::mechanics::loops::constraints::{coordinate_name, path, row_name};
-use crate::mechanics::loops::structure::{Role, Structure};
+use crate::mechanics::loops::structure::{Role, Row, Structure};
 use crate::mechanics::translate::symbols::has_quaternion;
 use crate::model::site::{Site, Sited};
 use crate::model::types::{Constraint, JointId, LoopClosure, Model};
@@ -14,7 +14,7 @@ use crate::model::types::{Constraint, JointId, LoopClosure, Model};
 use super::configurations::{Effort, Found, configurations};
 use super::measure::Gap;
 use super::problem::Problem;
-use super::{Analysis, CoupledRows, Looked, columns_of, driven_by, formula_of, rank, row_of};
+use super::{Analysis, Complaint, CoupledRows, Looked, columns_of, driven_by, formula_of, rank, row_of};
 impl Analysis<'_> {
     /// Equations without coordinates: they hold, or nothing can make them.
     pub(super) fn constants(&mut self, problem: &Problem, structure: &mut Structure) {
@@ -279,6 +279,25 @@ pub(super) fn locked(problem: &Problem, looked: &[Looked], reduced: bool) -> Vec
 
 fn joints(problem: &Problem, looked: &Looked) -> Vec<JointId> {
     looked.group.columns.iter().map(|&column| problem.columns[column].coordinate.joint).collect()
+}
+
+/// Loops whose equations can't be reduced to the same ones at all poses.
+pub(super) fn unsteady(model: &Model, needed: &[Row]) -> Vec<Complaint> {
+    let mut closings: Vec<LoopClosure> = needed.iter().map(|row| row.closing).collect();
+    closings.sort_unstable();
+    closings.dedup();
+    let complaint = |closing: LoopClosure| {
+        let (at, what) = thing(model, closing);
+        let names = needed.iter().filter(|row| row.closing == closing);
+        let names: Vec<String> = names.map(|row| format!("`{}`", row_name(model, row.closing, row.index))).collect();
+        let message = format!(
+            "{what} can't be reduced: which of its equations follow from the others changes with the pose ({})",
+            names.join(", ")
+        );
+        let help = "take `constraints: Multipliers`, which keeps all of them";
+        Complaint { at, message, help: Some(help.to_owned()) }
+    };
+    closings.into_iter().map(complaint).collect()
 }
 
 pub(super) fn thing(model: &Model, closing: LoopClosure) -> (Site, String) {

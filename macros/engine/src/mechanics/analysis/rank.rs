@@ -67,30 +67,6 @@ pub(super) fn kept(jacobians: &[&[Vec<f64>]], order: &[usize]) -> Vec<usize> {
     kept
 }
 
-/// Of the parallelepiped that as many rows span, taken first that stand most across those before.
-pub(super) fn greatest_volume(rows: &[Vec<f64>], count: usize) -> f64 {
-    let mut rests: Vec<Vec<f64>> = rows.to_vec();
-    let mut volume = 1.0;
-    for _ in 0..count {
-        let lengths = rests.iter().map(|rest| dot(rest, rest).sqrt());
-        let Some((at, length)) = lengths.enumerate().max_by(|a, b| a.1.total_cmp(&b.1)) else { return 0.0 };
-        volume *= length;
-        if volume == 0.0 {
-            return 0.0;
-        }
-        let mut unit = rests.swap_remove(at);
-        unit.iter_mut().for_each(|x| *x /= length);
-        // Twice, as rounding leaves something along it.
-        for rest in &mut rests {
-            for _ in 0..2 {
-                let along = dot(&unit, rest);
-                add(rest, -along, &unit);
-            }
-        }
-    }
-    volume
-}
-
 /// Rank of some rows of one Jacobian.
 pub(super) fn of(jacobian: &[Vec<f64>], rows: &[usize]) -> usize {
     let mut basis = Basis::default();

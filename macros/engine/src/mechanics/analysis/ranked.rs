@@ -29,7 +29,8 @@ pub(super) struct Ranked {
     pub evidence: String,
 }
 
-/// Keeps the configurations of the greatest rank in `found`. `rows` are places of equations, `formulas` those of formulas.
+/// Keeps the configurations of the greatest rank in `found`. `rows` are places of equations, those first that are kept rather than others,
+/// `formulas` those of formulas.
 /// `follows` tells whether all rows vanish wherever some of them do.
 pub(super) fn ranked(
     found: &mut Found,
@@ -54,13 +55,14 @@ pub(super) fn ranked(
         agreed = formulas.is_empty() && union.len() == greatest && follows(&union);
         union.sort_unstable();
     }
-    let staying = if agreed {
+    let mut staying = if agreed {
         union.clone()
     } else {
         let others = found.anywhere.iter().chain(&found.beside).map(Vec::as_slice);
         let all: Vec<&[Vec<f64>]> = everywhere.into_iter().chain(others).collect();
         rank::kept(&all, rows)
     };
+    staying.sort_unstable();
     let mut numbers = ranks.iter();
     let count = found.configurations.len();
     let configurations = &mut found.configurations;
@@ -92,6 +94,18 @@ pub(super) fn ranked(
         agreed,
         elusive: beside > greatest && !agreed,
         evidence,
+    }
+}
+
+impl Ranked {
+    /// Which equations follow from the others changes with the pose: all stay that say anything at some.
+    pub(super) fn keep_all(&mut self, found: &Found, rows: &[usize]) {
+        let jacobians =
+            || found.configurations.iter().map(|one| &one.jacobian).chain(&found.anywhere).chain(&found.beside);
+        let says = |row: &usize| jacobians().any(|jacobian| jacobian[*row].iter().any(|&x| x != 0.0));
+        self.staying = rows.iter().copied().filter(says).collect();
+        self.agreed = false;
+        self.evidence = "which of them follow from others changes with the pose".to_owned();
     }
 }
 

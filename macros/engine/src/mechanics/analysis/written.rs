@@ -4,10 +4,8 @@
 //! three components of a way in a planar loop it leaves out the one across the plane. The components of other axes mix
 //! these, and the places of those that were kept may hold the very one that says nothing. So the kept equations must have
 //! the rank there that they have here, at every closed configuration that was found.
-//!
-//! Where the plane turns against the axes, which component says nothing changes with the pose: in axes of the world two of three are enough
-//! until the plane stands upright. Near there the kept equations are nearly dependent though all of them together are regular, and accelerations
-//! lose their digits. So what the kept equations have of the volume that as many of all span has to be much the same at all configurations.
+//! And they must be as steady there ([`super::steadiness`]): where the plane turns against the axes, which component says nothing changes with the
+//! pose.
 
 use crate::mechanics::loops::constraints::{Writing, is_component};
 use crate::mechanics::loops::structure::{Closed, Means, Role, Row, Structure};
@@ -15,7 +13,7 @@ use crate::model::types::{ConstraintKind, Coordinate, JointId, LoopClosure, Mode
 
 use super::problem::Problem;
 use super::rank;
-use super::singular::dot;
+use super::steadiness::{STEADY, everywhere, steadiness};
 use super::stress::are_determined;
 use super::tape::Values;
 
@@ -34,20 +32,12 @@ struct Own {
     steadiness: f64,
 }
 
-/// How steady what is kept has to be where there is a choice. Of rows of unit length the least share was 0.7 and more in axes that go with the plane,
-/// 0.01 and less in others, in all models that were looked at; as they are scaled here that was not measured.
-pub(super) const STEADY: f64 = 0.5;
-
-/// The least share of the volume that is kept over the greatest, in the axes of the analysis; one where nothing is left out of a way between points.
-pub(super) fn steadiness(model: &Model, structure: &Structure) -> f64 {
-    Writings::new(model, structure).own.map_or(1.0, |own| own.steadiness)
-}
-
 impl<'m> Writings<'m> {
     pub(in super::super) fn new(model: &'m Model, structure: &'m Structure) -> Self {
         let mut writings = Writings { model, structure, own: None };
         if writings.is_partial() {
-            let (ranks, steadiness) = (writings.ranks_in(structure.writing), writings.steadiness_in(structure.writing));
+            let (ranks, steadiness) =
+                (writings.ranks_in(structure.writing), steadiness(model, structure, structure.writing));
             writings.own = Some(Own { ranks, steadiness });
         }
         writings
@@ -74,8 +64,13 @@ impl<'m> Writings<'m> {
         writing == self.structure.writing
             || (!self.structure.closed.is_empty()
                 && *ranks == self.ranks_in(writing)
-                && self.steadiness_in(writing) >= STEADY.min(*steadiness)
+                && self.is_steady(writing, *steadiness)
                 && are_determined(self.model, self.structure, writing))
+    }
+
+    fn is_steady(&self, writing: Writing, own: f64) -> bool {
+        let steadiness = steadiness(self.model, self.structure, writing);
+        steadiness >= STEADY || (steadiness >= own && everywhere(self.model, self.structure, writing).needed.is_empty())
     }
 
     /// Whether some components of a way are kept and others are not. All three say the same in any axes.
@@ -114,43 +109,6 @@ impl<'m> Writings<'m> {
             free.map(move |(index, _)| coordinate(index))
         });
         all.collect()
-    }
-
-    /// The least share of the volume that is kept over the greatest, in these axes.
-    fn steadiness_in(&self, writing: Writing) -> f64 {
-        let (kept, _) = self.systems().swap_remove(0);
-        let is_of_kept = |row: &&Row| kept.iter().any(|one| one.closing == row.closing);
-        let left_out: Vec<Row> = self.structure.dropped.iter().filter(is_of_kept).copied().collect();
-        if left_out.is_empty() {
-            return 1.0;
-        }
-        let problem = Problem::written(self.model, writing);
-        let mut values = Values::default();
-        let equations: Vec<usize> = kept.iter().chain(&left_out).filter_map(|row| problem.equation_of(*row)).collect();
-        let count = kept.iter().filter(|row| problem.equation_of(**row).is_some()).count();
-        let mut poses: Vec<Vec<Vec<f64>>> = Vec::with_capacity(self.structure.closed.len());
-        for closed in &self.structure.closed {
-            let at = problem.linearise(&problem.at(&closed.positions), &equations, &mut values);
-            poses.push(at.rows.iter().map(|row| problem.dense_row(row)).collect());
-        }
-        // One scale for all poses: what vanishes at one of them counts for nothing there.
-        for number in 0..equations.len() {
-            let longest = poses.iter().map(|rows| dot(&rows[number], &rows[number]).sqrt()).fold(0.0, f64::max);
-            let factor = if longest > 0.0 { 1.0 / longest } else { 0.0 };
-            poses.iter_mut().for_each(|rows| rows[number].iter_mut().for_each(|x| *x *= factor));
-        }
-        // Without a closed configuration nothing is known.
-        if poses.is_empty() {
-            return 1.0;
-        }
-        let volumes: Vec<[f64; 2]> =
-            poses.iter().map(|rows| [&rows[..count], rows].map(|rows| rank::greatest_volume(rows, count))).collect();
-        // A singular pose has no volume to share.
-        let regular = 1e-6 * volumes.iter().map(|one| one[1]).fold(0.0, f64::max);
-        let shares = volumes.iter().filter(|one| one[1] > regular).map(|[kept, all]| kept / all);
-        let (least, greatest) = shares.fold((f64::INFINITY, 0.0_f64), |(a, b), share| (a.min(share), b.max(share)));
-        // What has no volume anywhere is no choice.
-        if greatest > 0.0 { least / greatest } else { 0.0 }
     }
 
     /// By system, at every closed configuration.
