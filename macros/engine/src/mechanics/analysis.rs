@@ -212,8 +212,11 @@ impl<'m> Analysis<'m> {
             // With multipliers an equation more costs work and does no harm.
             let follows =
                 |independent: &[usize]| reduced && follow(problem, &group.equations, independent, &group.columns);
-            let is_first =
-                |k: usize| row_of(problem, group.equations[k]).is_some_and(|row| self.choice.first.contains(&row));
+            // Beside formulas the declared order counts.
+            let is_first = |k: usize| {
+                formulas.is_empty()
+                    && row_of(problem, group.equations[k]).is_some_and(|row| self.choice.first.contains(&row))
+            };
             let (first, later): (Vec<usize>, Vec<usize>) = rows.iter().partition(|&&k| is_first(k));
             let order = [first, later].concat();
             let mut ranked = ranked::ranked(&mut found, &order, &formulas, follows);

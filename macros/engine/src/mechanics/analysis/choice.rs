@@ -8,7 +8,7 @@ use crate::mechanics::loops::constraints::{ClosedIn, Writing};
 use crate::mechanics::loops::structure::{Row, Structure};
 use crate::model::types::{Handling, Model};
 
-use super::steadiness::{Everywhere, STEADY, everywhere, steadiness};
+use super::steadiness::{STEADY, enough, needed, steadiness};
 use super::{Complaint, checks, split, stress};
 
 /// How equations are looked at.
@@ -17,7 +17,7 @@ pub(super) struct Choice<'a> {
     pub writing: Writing,
     /// Equations that are kept rather than others.
     pub first: &'a [Row],
-    /// Loops with these equations keep all that say anything.
+    /// Groups with these equations keep all that say anything.
     pub whole: &'a [Row],
 }
 
@@ -27,91 +27,63 @@ impl Choice<'_> {
     }
 }
 
-/// The first axes in which what is kept is steady, or those in which it is steadiest and enough everywhere.
+/// A structure that says what it should.
+struct Candidate {
+    structure: Structure,
+    steadiness: f64,
+    needed: Vec<Row>,
+}
+
+/// The first axes in which what is kept is steady, and enough at all poses; or the steadiest in which it is enough; or those in which another choice is.
 pub(super) fn structure(model: &Model) -> Result<Structure, Vec<Complaint>> {
-    // What the first choice can't be split for, none can.
-    let mut plain = Some(split(model, Choice::plain(ClosedIn::Common))?);
-    let (mut undetermined, mut lacking) = (None, None);
-    let mut best: Option<(f64, Structure)> = None;
-    for axes in [ClosedIn::Common, ClosedIn::ParentBase, ClosedIn::Parent, ClosedIn::Child] {
-        let choice = Choice::plain(axes);
-        let Some(mut found) = plain.take().or_else(|| split(model, choice).ok()) else { continue };
-        let complaints = stress::complaints(model, &found, choice.writing);
+    let axes = [ClosedIn::Common, ClosedIn::ParentBase, ClosedIn::Parent, ClosedIn::Child];
+    let mut candidates: Vec<Candidate> = Vec::new();
+    let mut undetermined = None;
+    for (number, choice) in axes.map(Choice::plain).into_iter().enumerate() {
+        let structure = match split(model, choice) {
+            Ok(structure) => structure,
+            // What the first choice can't be split for, none can.
+            Err(complaints) if number == 0 => return Err(complaints),
+            Err(_) => continue,
+        };
+        let complaints = stress::complaints(model, &structure, choice.writing);
         if !complaints.is_empty() {
             undetermined.get_or_insert(complaints);
             continue;
         }
-        if steadiness(model, &found, choice.writing) >= STEADY {
-            return Ok(found);
+        let steadiness = steadiness(model, &structure, choice.writing);
+        let needed = needed(model, &structure, choice.writing);
+        if steadiness >= STEADY && needed.is_empty() {
+            return Ok(structure);
         }
-        let Everywhere { needed, enough } = everywhere(model, &found, choice.writing);
-        if !needed.is_empty() {
-            lacking.get_or_insert(needed);
-            let Some(other) = enough.and_then(|first| other(model, Choice { first: &first, ..choice })) else {
-                continue;
-            };
-            found = other;
-        }
-        let steadiness = steadiness(model, &found, choice.writing);
-        if best.as_ref().is_none_or(|best| steadiness > best.0) {
-            best = Some((steadiness, found));
+        candidates.push(Candidate { structure, steadiness, needed });
+    }
+    candidates.sort_by(|a, b| b.steadiness.total_cmp(&a.steadiness));
+    if let Some(enough) = candidates.iter().position(|one| one.needed.is_empty()) {
+        return Ok(candidates.swap_remove(enough).structure);
+    }
+    for Candidate { structure, .. } in &candidates {
+        let choice = Choice::plain(structure.writing.axes);
+        let enough = enough(model, structure, choice.writing);
+        let other = enough.and_then(|first| checked(model, Choice { first: &first, ..choice }).ok());
+        if let Some(other) = other.filter(|other| needed(model, other, choice.writing).is_empty()) {
+            return Ok(other);
         }
     }
-    match (best, lacking) {
-        (Some((_, structure)), _) => Ok(structure),
-        (None, Some(needed)) if matches!(model.handling, Handling::Reduced) => Err(checks::unsteady(model, &needed)),
-        (None, Some(needed)) => {
-            let structure = split(model, Choice { whole: &needed, ..Choice::plain(ClosedIn::Common) })?;
-            let complaints = stress::complaints(model, &structure, structure.writing);
-            if complaints.is_empty() { Ok(structure) } else { Err(complaints) }
-        }
-        (None, None) => Err(undetermined.unwrap_or_default()),
+    match candidates.first() {
+        None => Err(undetermined.unwrap_or_default()),
+        Some(one) if matches!(model.handling, Handling::Reduced) => Err(checks::unsteady(model, &one.needed)),
+        Some(one) => checked(model, Choice { whole: &one.needed, ..Choice::plain(one.structure.writing.axes) }),
     }
 }
 
-/// With other equations, if they are enough everywhere.
-fn other(model: &Model, choice: Choice<'_>) -> Option<Structure> {
-    let structure = split(model, choice).ok()?;
-    let is_determined = stress::are_determined(model, &structure, choice.writing);
-    (is_determined && everywhere(model, &structure, choice.writing).needed.is_empty()).then_some(structure)
+/// With what is read of reactions.
+fn checked(model: &Model, choice: Choice<'_>) -> Result<Structure, Vec<Complaint>> {
+    let structure = split(model, choice)?;
+    let complaints = stress::complaints(model, &structure, choice.writing);
+    if complaints.is_empty() { Ok(structure) } else { Err(complaints) }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::diagnostics::Diagnostics;
-
-    /// Bennett's linkage, of which two equations are independent, but not the same two at all poses.
-    const BENNETT: &str = "pub mod m {
-        formulation { constraints: Multipliers }
-        body one { mass: 1.0, inertia: diag(0.1, 0.1, 0.1) }
-        body two { mass: 1.5, inertia: diag(0.1, 0.1, 0.1) }
-        body three { mass: 1.0, inertia: diag(0.1, 0.1, 0.1) }
-        joint a: Revolute { parent: ground, child: one, axis: Z }
-        joint b: Revolute { parent: one.at(X).rotated(X, 0.6), child: two, axis: Z }
-        joint c: Revolute { parent: two.at(sin(1.1) / sin(0.6) * X).rotated(X, 1.1), child: three, axis: Z }
-        #[cut]
-        joint d: Revolute {
-            parent: three.at(X).rotated(X, 0.6), child: ground.rotated(X, -1.1).at(-sin(1.1) / sin(0.6) * X), axis: Z
-        }
-    }";
-
-    #[test]
-    fn a_whole_loop_keeps_all() {
-        let mut diagnostics = Diagnostics::default();
-        let source = crate::parse(BENNETT.parse().expect("tokens"), &mut diagnostics);
-        let model = crate::model::check(&source, &mut diagnostics).remove(0);
-        let common = Choice::plain(ClosedIn::Common);
-        let plain = split(&model, common).expect("a structure");
-        let Everywhere { needed, enough } = everywhere(&model, &plain, plain.writing);
-        assert_eq!(plain.rows.len(), 2);
-        assert!(!needed.is_empty());
-        let enough = enough.expect("a better choice");
-        let better = other(&model, Choice { first: &enough, ..common }).expect("a structure");
-        assert_eq!(better.rows.len(), 2);
-        assert!(better.rows != plain.rows);
-        let whole = split(&model, Choice { whole: &needed, ..common }).expect("a structure");
-        assert_eq!((whole.rows.len(), whole.dropped.len()), (5, 0));
-        assert!(whole.redundant);
-    }
-}
+#[path = "../../../tests/choices/mod.rs"]
+mod tests;

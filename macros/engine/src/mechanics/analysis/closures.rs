@@ -111,8 +111,9 @@ fn closure(model: &Model, structure: &Structure, wanted: &Kinematics) -> Result<
     };
     let found = analyse(&other).map_err(|complaints| {
         let (why, help) = complaints.into_iter().next().map(|one| (one.message, one.help)).unwrap_or_default();
-        // What is said of `independent` is meant of what is given.
-        let help = help.filter(|help| !help.contains("`independent`"));
+        // What is said of `independent` is meant of what is given, and multipliers find no positions.
+        let is_meant = |help: &String| !help.contains("`independent`") && !help.contains("`constraints: Multipliers`");
+        let help = help.filter(is_meant);
         let help = help.as_deref().unwrap_or("give other coordinates");
         complain(format!("what is given does not lead to what is to be found: {why}"), help)
     })?;

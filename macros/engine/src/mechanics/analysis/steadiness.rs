@@ -1,113 +1,83 @@
 //! Stage `mechanics`: whether equations that were kept are enough wherever the mechanism goes.
 //!
-//! In: a model with its structure, the axes that its loops are written in. Out: how steady what was kept is, and which equations that were left
-//! out are needed at some poses, with a better choice if there is one. An equation that is left out is a combination of kept ones at every closed pose, and what coefficients it has
-//! changes with the pose. Where some have a pole, kept equations depend on each other though all of them together do not: a planar
-//! loop that turns against the axes of its equations has one where its plane stands upright. Near there accelerations lose their digits, as one over the
-//! square of the distance, and at the pole itself a motion is free that is none.
+//! In: a model with its structure, the axes that its loops are written in. Out: how steady what was kept is, which equations that were left
+//! out are needed at some poses, and a better choice if there is one. An equation that is left out is a combination of kept ones at every closed
+//! pose, and its coefficients change with the pose. Where one has a pole, kept equations depend on each other though all of
+//! them together do not: a planar loop that turns against the axes of its equations has one where its plane stands upright. Near there
+//! accelerations lose their digits, as one over the square of the distance, and at the pole itself a motion seems free that is not.
 //!
-//! Coefficients and the equation itself, which counts one, are a line through the origin, and its direction is smooth where coefficients have poles
-//! (homogeneous coordinates). What the equation itself has of the unit vector along it is its share: one where kept equations say nothing like it, zero at a
-//! pole. Poses at random tell whether shares are much the same everywhere; if they are not, the line is followed along motions, and a pole is where the share
-//! changes its sign. An equation with a pole is exchanged for the kept one that has the greatest coefficient there, which makes as much of the volume
-//! that all span, until none has a pole or a choice comes again.
+//! The coefficients, with a one for the equation itself, are the direction of a line, and that is smooth where coefficients have poles
+//! (homogeneous coordinates). The component of the equation itself in the unit vector along the line is its *share*: one where kept equations say
+//! nothing like it, zero at a pole. If shares are not the same at all poses that are known, lines are followed along motions, in steps that are halved
+//! where a line turns fast or a share is small. Then the equation takes the place of the kept one that has the greatest coefficient at the pole: of all
+//! exchanges that one leaves most of what the rows span. So it goes on until no equation has a pole, or a choice comes again.
+
+use std::collections::HashSet;
 
 use crate::mechanics::loops::constraints::Writing;
 use crate::mechanics::loops::structure::{Means, Role, Row, Structure};
-use crate::model::types::{Coordinate, JointId, Model};
+use crate::model::types::{LoopClosure, Model};
 
 use super::configurations::Search;
-use super::problem::{Point, Problem, Random};
+use super::problem::{Point, Problem, Random, Source};
 use super::rank::{self, Basis};
 use super::singular::dot;
 use super::tape::Values;
+use super::{CoupledRows, groups, row_of};
 
-/// As steady what is kept has to be for nobody to look any further. Of planar loops, the least share was 0.7 of the greatest and more in axes that go with the
-/// plane, 0.25 and less in others.
+/// As steady what is kept should be: of two choices one that is not is looked at later. Of planar loops, the least share was 0.7 of the greatest and more
+/// in axes that go with the plane, 0.25 and less in others.
 pub(super) const STEADY: f64 = 0.5;
-/// Motions that are followed, each both ways, from the first closed poses; fewer of mechanisms with more equations than `LARGE`.
-const MOTIONS: usize = 8;
+/// Shares that are the same at all poses differ by less.
+const CONSTANT: f64 = 1.0 - 1e-6;
+/// A share below this is that of a pole near by: coefficients above 50.
+const POLE: f64 = 0.02;
+/// Motions that are followed, each both ways, from the first closed poses; fewer of groups with more equations than `LARGE`.
+const MOTIONS: usize = 6;
 const FEW: usize = 2;
-const LARGE: usize = 60;
+const LARGE: usize = 30;
 /// Steps of each, and the most that a coordinate moves in one. [rad, sizes]
-const STEPS: usize = 40;
-const STEP: f64 = 0.15;
-/// A line that turns by more than this in a step is not known to be the same one: cosine.
-const SAME: f64 = 0.7;
+const STEPS: usize = 30;
+const STEP: f64 = 0.2;
+/// Steps are halved as often at most, where a line turns by more than this (cosine).
+const HALVINGS: usize = 7;
+const CLEAR: f64 = 0.94;
+/// They are halved down to this number where a share is below that.
+const COARSE: usize = 4;
+const NEAR: f64 = 0.1;
 /// Choices that are looked at, for each equation that was left out.
 const CHOICES: usize = 6;
-
-/// What motions tell.
-pub(super) struct Everywhere {
-    /// Equations that were left out and are needed at some poses.
-    pub needed: Vec<Row>,
-    /// If there are any, equations that are enough at all poses in place of those that were kept.
-    pub enough: Option<Vec<Row>>,
-}
+/// Slopes below this, in units of the equation, are those of rounding.
+const ROUNDING: f64 = 1e-7;
 
 /// The least over the greatest share of any equation that was left out, at the closed poses; one where none was, and where nothing is known.
 pub(super) fn steadiness(model: &Model, structure: &Structure, writing: Writing) -> f64 {
-    let Some(judged) = Judged::new(model, structure, writing) else { return 1.0 };
-    let order: Vec<usize> = (0..judged.rows.len()).collect();
-    let mut spread = vec![(f64::INFINITY, 0.0_f64); judged.left_out()];
-    let mut values = Values::default();
-    for pose in &judged.poses {
-        for ((least, greatest), line) in spread.iter_mut().zip(judged.lines(&judged.slopes(pose, &mut values), &order))
-        {
-            let share = line.map_or(0.0, |line| line[0]);
-            (*least, *greatest) = (least.min(share), greatest.max(share));
-        }
-    }
-    // What no kept equations give anywhere doesn't follow from them.
-    let shares = spread.iter().map(|&(least, greatest)| if greatest > 0.0 { least / greatest } else { 0.0 });
-    shares.fold(1.0, f64::min)
+    let problem = Problem::written(model, writing);
+    let groups = Judged::groups(&problem, structure);
+    groups.iter().map(Judged::steadiness).fold(1.0, f64::min)
 }
 
-/// Looks for poles along motions.
-pub(super) fn everywhere(model: &Model, structure: &Structure, writing: Writing) -> Everywhere {
-    let mut found = Everywhere { needed: Vec::new(), enough: None };
-    let Some(judged) = Judged::new(model, structure, writing) else { return found };
-    let motions = judged.motions();
-    let mut order: Vec<usize> = (0..judged.rows.len()).collect();
-    let first = judged.rows.len() - judged.left_out();
-    let mut seen: Vec<Vec<usize>> = Vec::new();
-    for number in 0..CHOICES * judged.left_out() {
-        let poles = judged.poles(&motions, &order);
-        if number == 0 {
-            let needed = poles.iter().enumerate().filter(|one| one.1.is_some());
-            found.needed = needed.map(|(k, _)| judged.rows[first + k]).collect();
-        }
-        let kept = |order: &[usize]| {
-            let mut kept = order[..judged.kept].to_vec();
-            kept.sort_unstable();
-            kept
-        };
-        seen.push(kept(&order));
-        let exchanges = poles.iter().enumerate().filter_map(|(k, kept)| Some((first + k, (*kept)?)));
-        let exchanged = |(a, b): (usize, usize)| {
-            let mut order = order.clone();
-            order.swap(a, b);
-            order
-        };
-        if poles.iter().all(Option::is_none) {
-            found.enough = (number > 0).then(|| kept(&order).into_iter().map(|k| judged.rows[k]).collect());
-            break;
-        }
-        let Some(next) = exchanges.map(exchanged).find(|order| !seen.contains(&kept(order))) else { break };
-        order = next;
-    }
-    found
+/// Equations that were left out and are needed at some poses.
+pub(super) fn needed(model: &Model, structure: &Structure, writing: Writing) -> Vec<Row> {
+    let problem = Problem::written(model, writing);
+    Judged::groups(&problem, structure).iter().flat_map(Judged::needed).collect()
 }
 
-/// Equations that have to be independent, and those that were left out.
-struct Judged {
-    problem: Problem,
-    /// Kept ones, those that formulas solve, those that were left out.
-    rows: Vec<Row>,
-    /// The same in the problem.
+/// Equations that are enough in place of those that were kept, by what motions tell.
+pub(super) fn enough(model: &Model, structure: &Structure, writing: Writing) -> Option<Vec<Row>> {
+    let problem = Problem::written(model, writing);
+    let enough: Option<Vec<Vec<Row>>> = Judged::groups(&problem, structure).iter().map(Judged::enough).collect();
+    enough.map(|groups| groups.concat())
+}
+
+/// Equations of one group that have to be independent, and those that were left out.
+struct Judged<'p> {
+    problem: &'p Problem,
+    group: CoupledRows,
+    kept: Vec<Row>,
+    left_out: Vec<Row>,
+    /// In the problem: kept ones, formulas and couplings, those that were left out.
     equations: Vec<usize>,
-    kept: usize,
-    solved: usize,
     /// By column: whether no drive moves it.
     free: Vec<bool>,
     /// By equation, one over the longest gradient at any pose. One scale for all: what vanishes at a pose counts for nothing there.
@@ -115,37 +85,54 @@ struct Judged {
     poses: Vec<Point>,
 }
 
-/// Rows of slopes of all equations at one pose.
-type Slopes = Vec<Vec<f64>>;
-/// By equation that was left out the line of its coefficients; nothing where kept ones don't give it.
+/// By equation that was left out, in the order of a choice, the line of its coefficients; nothing where others don't give it.
 type Lines = Vec<Option<Vec<f64>>>;
 
-impl Judged {
-    /// Nothing where nothing is left out, or no pose is known.
-    fn new(model: &Model, structure: &Structure, writing: Writing) -> Option<Judged> {
-        let kept = kept(structure);
-        if kept.is_empty() || structure.dropped.is_empty() || structure.closed.is_empty() {
-            return None;
+/// A step of a motion: where it begins, by how much columns move in it before loops are closed again, where it ends.
+struct Step {
+    from: Point,
+    way: Vec<f64>,
+    to: Point,
+}
+
+/// A choice of equations, by place: kept ones first, then formulas and couplings, then those that are left out.
+type Order = Vec<usize>;
+
+impl<'p> Judged<'p> {
+    /// Those in which something is kept and something is left out.
+    fn groups(problem: &'p Problem, structure: &Structure) -> Vec<Judged<'p>> {
+        if structure.dropped.is_empty() || structure.closed.is_empty() {
+            return Vec::new();
         }
-        let problem = Problem::written(model, writing);
-        let solved: Vec<Row> = structure.independent.iter().copied().filter(|row| !kept.contains(row)).collect();
-        let known = |rows: &[Row]| {
-            let known = rows.iter().filter_map(|row| Some((*row, problem.equation_of(*row)?)));
-            known.collect::<Vec<(Row, usize)>>()
+        let kept: HashSet<Row> = structure.rows.iter().chain(iterated(structure)).copied().collect();
+        let coupled: HashSet<LoopClosure> = structure.steps.iter().filter_map(|step| coupling(&step.means)).collect();
+        let free = problem.columns.iter().map(|one| !matches!(structure.role(one.coordinate), Role::Driven(_)));
+        let free: Vec<bool> = free.collect();
+        let poses: Vec<Point> = structure.closed.iter().map(|closed| problem.at(&closed.positions)).collect();
+        let judged = |group: CoupledRows| {
+            let of = |is: &dyn Fn(usize) -> bool| -> Vec<usize> {
+                group.equations.iter().copied().filter(|&k| is(k)).collect()
+            };
+            let row = |k: usize| row_of(problem, k);
+            let of_kept = of(&|k| row(k).is_some_and(|row| kept.contains(&row)));
+            let left_out = of(&|k| row(k).is_some_and(|row| structure.dropped.contains(&row) && !kept.contains(&row)));
+            let given = of(&|k| match problem.equations[k].source {
+                Source::Row(row) => coupled.contains(&row.closing),
+                Source::Formula(..) => structure.rows.is_empty(),
+            });
+            let rows = |list: &[usize]| list.iter().filter_map(|&k| row(k)).collect::<Vec<Row>>();
+            let (kept, rows_left_out) = (rows(&of_kept), rows(&left_out));
+            let equations = [of_kept, given, left_out].concat();
+            let scales = vec![1.0; equations.len()];
+            let (free, poses) = (free.clone(), poses.clone());
+            let left_out = rows_left_out;
+            Judged { problem, group, kept, left_out, equations, free, scales, poses }.scaled()
         };
-        let [kept, solved, left_out] = [known(&kept), known(&solved), known(&structure.dropped)];
-        let (of_kept, of_solved) = (kept.len(), solved.len());
-        let (rows, equations): (Vec<Row>, Vec<usize>) = [kept, solved, left_out].concat().into_iter().unzip();
-        let moved = moved(structure);
-        let free = problem.columns.iter().map(|column| moved.contains(&column.coordinate)).collect();
-        let poses = structure.closed.iter().map(|closed| problem.at(&closed.positions)).collect();
-        let scales = vec![1.0; equations.len()];
-        let mut judged = Judged { problem, rows, equations, kept: of_kept, solved: of_solved, free, scales, poses };
-        judged.scale();
-        Some(judged)
+        let all = groups(problem, &[]).into_iter().map(judged);
+        all.filter(|one| !one.kept.is_empty() && !one.left_out.is_empty()).collect()
     }
 
-    fn scale(&mut self) {
+    fn scaled(mut self) -> Self {
         let mut longest = vec![0.0_f64; self.equations.len()];
         let mut values = Values::default();
         for pose in &self.poses {
@@ -153,34 +140,92 @@ impl Judged {
                 *longest = longest.max(dot(&row, &row).sqrt());
             }
         }
-        self.scales = longest.iter().map(|&length| if length > 0.0 { 1.0 / length } else { 0.0 }).collect();
+        self.scales = longest.iter().map(|&length| if length > ROUNDING { 1.0 / length } else { 0.0 }).collect();
+        self
     }
 
-    fn left_out(&self) -> usize {
-        self.rows.len() - self.kept - self.solved
+    fn as_found(&self) -> Order {
+        (0..self.equations.len()).collect()
     }
 
-    fn slopes(&self, point: &Point, values: &mut Values) -> Slopes {
+    fn steadiness(&self) -> f64 {
+        let mut spread = vec![(f64::INFINITY, 0.0_f64); self.left_out.len()];
+        let mut values = Values::default();
+        for pose in &self.poses {
+            let lines = self.lines(pose, &self.as_found(), &mut values);
+            for ((least, greatest), line) in spread.iter_mut().zip(lines) {
+                let share = line.map_or(0.0, |line| line[0]);
+                (*least, *greatest) = (least.min(share), greatest.max(share));
+            }
+        }
+        // What no kept equations give anywhere doesn't follow from them.
+        let shares = spread.iter().map(|&(least, greatest)| if greatest > 0.0 { least / greatest } else { 0.0 });
+        shares.fold(1.0, f64::min)
+    }
+
+    fn needed(&self) -> Vec<Row> {
+        if self.steadiness() > CONSTANT {
+            return Vec::new();
+        }
+        let poles = self.poles(&self.motions(), &self.as_found());
+        self.left_out.iter().zip(poles).filter(|one| one.1.is_some()).map(|one| *one.0).collect()
+    }
+
+    /// What is kept already where it is enough.
+    fn enough(&self) -> Option<Vec<Row>> {
+        if self.steadiness() > CONSTANT {
+            return Some(self.kept.clone());
+        }
+        let (motions, mut order) = (self.motions(), self.as_found());
+        let first = self.equations.len() - self.left_out.len();
+        let mut seen: HashSet<Vec<usize>> = HashSet::new();
+        for _ in 0..CHOICES * self.left_out.len() {
+            seen.insert(self.chosen(&order));
+            let poles = self.poles(&motions, &order);
+            if poles.iter().all(Option::is_none) {
+                return Some(
+                    self.chosen(&order).into_iter().filter_map(|k| row_of(self.problem, self.equations[k])).collect(),
+                );
+            }
+            let exchanged = poles.iter().enumerate().filter_map(|(k, pole)| {
+                let mut next = order.clone();
+                next.swap(first + k, (*pole)?);
+                Some(next)
+            });
+            order = exchanged.into_iter().find(|next| !seen.contains(&self.chosen(next)))?;
+        }
+        None
+    }
+
+    /// Places of what is kept.
+    fn chosen(&self, order: &Order) -> Vec<usize> {
+        let mut chosen = order[..self.kept.len()].to_vec();
+        chosen.sort_unstable();
+        chosen
+    }
+
+    /// Rows of slopes of all equations.
+    fn slopes(&self, point: &Point, values: &mut Values) -> Vec<Vec<f64>> {
         let at = self.problem.linearise(point, &self.equations, values);
         let rows = at.rows.iter().zip(&self.scales).map(|(row, scale)| {
             let mut dense = self.problem.dense_row(row);
             dense.iter_mut().zip(&self.free).for_each(|(x, &free)| *x *= if free { *scale } else { 0.0 });
-            dense
+            self.group.columns.iter().map(|&column| dense[column]).collect()
         });
         rows.collect()
     }
 
-    /// With equations in some order, kept ones first, then those that formulas solve.
-    fn lines(&self, slopes: &Slopes, order: &[usize]) -> Lines {
-        let first = self.kept + self.solved;
-        let mut lines = vec![None; self.left_out()];
-        let rows: Slopes = order.iter().map(|&k| slopes[k].clone()).collect();
+    fn lines(&self, point: &Point, order: &Order, values: &mut Values) -> Lines {
+        let slopes = self.slopes(point, values);
+        let rows: Vec<Vec<f64>> = order.iter().map(|&k| slopes[k].clone()).collect();
+        let first = rows.len() - self.left_out.len();
+        let mut lines = vec![None; self.left_out.len()];
         for combination in rank::combinations(&rows) {
             // The last of a combination is what follows from the others.
             let last = combination.iter().rposition(|&x| x != 0.0);
             let Some(slot) = last.and_then(|last| lines.get_mut(last.checked_sub(first)?)) else { continue };
             let mut line = vec![1.0];
-            line.extend(&combination[..self.kept]);
+            line.extend(&combination[..self.kept.len()]);
             let length = dot(&line, &line).sqrt();
             line.iter_mut().for_each(|x| *x /= length);
             *slot = Some(line);
@@ -188,31 +233,29 @@ impl Judged {
         lines
     }
 
-    /// Slopes along motions from closed poses, each until it comes to an end.
-    fn motions(&self) -> Vec<Vec<Slopes>> {
+    /// Motions from closed poses. What is driven moves as all else does: at some time it will be there.
+    fn motions(&self) -> Vec<Vec<Step>> {
         let mut random = Random(0x57EAD);
-        let count = if self.problem.equations.len() > LARGE { FEW } else { MOTIONS };
+        let count = if self.group.equations.len() > LARGE { FEW } else { MOTIONS };
         let mut motions = Vec::new();
         for pose in self.poses.iter().cycle().take(count) {
-            let towards: Vec<f64> = self.free.iter().map(|&free| if free { random.next() } else { 0.0 }).collect();
+            let towards: Vec<f64> = self.group.columns.iter().map(|_| random.next()).collect();
             for sign in [1.0, -1.0] {
-                motions.push(self.motion(pose.clone(), towards.iter().map(|x| sign * x).collect()));
+                motions.push(self.motion(pose, towards.iter().map(|x| sign * x).collect()));
             }
         }
         motions
     }
 
-    fn motion(&self, mut point: Point, mut towards: Vec<f64>) -> Vec<Slopes> {
-        let equations: Vec<usize> = (0..self.problem.equations.len()).collect();
-        let columns: Vec<usize> = (0..self.problem.columns.len()).collect();
-        let held: Vec<bool> = self.free.iter().map(|free| !free).collect();
-        let search = Search::new(&self.problem, &equations, &columns).holding(&held);
-        let mut values = Values::default();
-        let mut motion = vec![self.slopes(&point, &mut values)];
+    /// One motion, until it comes to an end.
+    fn motion(&self, pose: &Point, mut towards: Vec<f64>) -> Vec<Step> {
+        let CoupledRows { equations, columns } = &self.group;
+        let search = Search::new(self.problem, equations, columns);
+        let (mut values, mut from, mut steps) = (Values::default(), pose.clone(), Vec::new());
         for _ in 0..STEPS {
             let mut allowed = Basis::default();
-            for row in motion.last().into_iter().flatten() {
-                allowed.grow(row, rank::DEPENDENT);
+            for row in search.jacobian_at(&from, &mut values) {
+                allowed.grow(&row, rank::DEPENDENT);
             }
             towards = allowed.rest(&towards);
             let most = towards.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
@@ -220,57 +263,112 @@ impl Judged {
                 break;
             }
             towards.iter_mut().for_each(|x| *x *= STEP / most);
-            self.problem.displace(&mut point, &towards);
-            if !search.close(&mut point, &mut values) {
+            let mut way = vec![0.0; self.problem.columns.len()];
+            columns.iter().zip(&towards).for_each(|(&column, x)| way[column] = *x);
+            let Some(to) = self.moved(&search, &from, &way, 1.0, &mut values) else { break };
+            steps.push(Step { from: std::mem::replace(&mut from, to.clone()), way, to });
+        }
+        steps
+    }
+
+    /// A part of a step.
+    fn moved(&self, search: &Search<'_>, from: &Point, way: &[f64], part: f64, values: &mut Values) -> Option<Point> {
+        let mut point = from.clone();
+        let way: Vec<f64> = way.iter().map(|x| part * x).collect();
+        self.problem.displace(&mut point, &way);
+        search.close(&mut point, values).then_some(point)
+    }
+
+    /// By equation that is left out, if it has a pole, the place of the kept one that has the greatest coefficient there. The first motion that meets
+    /// any is the last.
+    fn poles(&self, motions: &[Vec<Step>], order: &Order) -> Vec<Option<usize>> {
+        let search = Search::new(self.problem, &self.group.equations, &self.group.columns);
+        let mut values = Values::default();
+        let mut poles = Poles(vec![None; self.left_out.len()]);
+        for motion in motions {
+            let Some(first) = motion.first() else { continue };
+            let mut before = self.lines(&first.from, order, &mut values);
+            poles.look(&before);
+            for step in motion {
+                let after = self.lines(&step.to, order, &mut values);
+                poles.look(&after);
+                // Places of a step that are still to be compared with each other.
+                let mut open = vec![(0.0, before, 1.0, after.clone(), HALVINGS)];
+                while let Some((a, of_a, b, of_b, halvings)) = open.pop() {
+                    let middle = 0.5 * (a + b);
+                    let halved = (halvings > 0 && poles.is_open(&of_a, &of_b, halvings > COARSE))
+                        .then(|| self.moved(&search, &step.from, &step.way, middle, &mut values));
+                    if let Some(point) = halved.flatten() {
+                        let lines = self.lines(&point, order, &mut values);
+                        poles.look(&lines);
+                        open.push((a, of_a, middle, lines.clone(), halvings - 1));
+                        open.push((middle, lines, b, of_b, halvings - 1));
+                    } else {
+                        poles.compare(&of_a, &of_b);
+                    }
+                }
+                before = after;
+            }
+            if poles.0.iter().any(Option::is_some) {
                 break;
             }
-            motion.push(self.slopes(&point, &mut values));
         }
-        motion
+        poles.0
     }
+}
 
-    /// By equation that is left out, if it has a pole, the place of the kept one that has the greatest coefficient there.
-    fn poles(&self, motions: &[Vec<Slopes>], order: &[usize]) -> Vec<Option<usize>> {
-        let mut poles = vec![None; self.left_out()];
-        for motion in motions {
-            let mut before: Lines = vec![None; poles.len()];
-            for slopes in motion {
-                for ((before, now), pole) in before.iter_mut().zip(self.lines(slopes, order)).zip(&mut poles) {
-                    *before = now.map(|now| {
-                        let Some(before) = before else { return now };
-                        let turn = dot(before, &now);
-                        let now: Vec<f64> = now.iter().map(|x| x * turn.signum()).collect();
-                        if turn.abs() > SAME && now[0] * before[0] < 0.0 {
-                            let coefficients = now[1..].iter().map(|x| x.abs()).enumerate();
-                            *pole = pole.or(coefficients.max_by(|a, b| a.1.total_cmp(&b.1)).map(|one| one.0));
-                        }
-                        now
-                    });
-                }
+/// By equation that is left out, the place of the kept one that has the greatest coefficient at a pole.
+struct Poles(Vec<Option<usize>>);
+
+impl Poles {
+    /// At one pose.
+    fn look(&mut self, lines: &Lines) {
+        for (pole, line) in self.0.iter_mut().zip(lines) {
+            if let Some(line) = line.as_ref().filter(|line| line[0].abs() < POLE) {
+                *pole = pole.or(greatest(line));
             }
         }
-        poles
     }
-}
 
-/// Equations that have to be independent: those with multipliers, and those that Newton's method solves.
-fn kept(structure: &Structure) -> Vec<Row> {
-    let mut kept = structure.rows.clone();
-    for step in &structure.steps {
-        if let Means::Newton { rows, .. } = &step.means {
-            kept.extend(rows);
+    /// Whether it is not known what is between two poses; if they are `far`, small shares are looked at, too.
+    fn is_open(&self, before: &Lines, after: &Lines, far: bool) -> bool {
+        let mut pairs = self.0.iter().zip(before.iter().zip(after));
+        pairs.any(|(pole, pair)| match pair {
+            (Some(a), Some(b)) if pole.is_none() => dot(a, b).abs() < CLEAR || far && a[0].abs().min(b[0].abs()) < NEAR,
+            _ => false,
+        })
+    }
+
+    /// A share that has changed its sign, where the line is known to be the same one.
+    fn compare(&mut self, before: &Lines, after: &Lines) {
+        for (pole, pair) in self.0.iter_mut().zip(before.iter().zip(after)) {
+            let (Some(a), Some(b)) = pair else { continue };
+            let turn = dot(a, b);
+            if turn.abs() >= CLEAR && turn * a[0] * b[0] < 0.0 {
+                *pole = pole.or(greatest(if a[0].abs() < b[0].abs() { a } else { b }));
+            }
         }
     }
-    kept
 }
 
-/// Coordinates that no drive gives.
-fn moved(structure: &Structure) -> Vec<Coordinate> {
-    let joints = structure.roles.iter().enumerate();
-    let all = joints.flat_map(|(joint, roles)| {
-        let coordinate = move |index: usize| Coordinate { joint: JointId(joint), index };
-        let free = roles.iter().enumerate().filter(|(_, role)| !matches!(role, Role::Driven(_)));
-        free.map(move |(index, _)| coordinate(index))
-    });
-    all.collect()
+/// The place of the greatest coefficient of a line.
+fn greatest(line: &[f64]) -> Option<usize> {
+    let coefficients = line[1..].iter().map(|x| x.abs()).enumerate();
+    coefficients.max_by(|a, b| a.1.total_cmp(&b.1)).map(|one| one.0)
+}
+
+/// Equations that Newton's method solves.
+fn iterated(structure: &Structure) -> impl Iterator<Item = &Row> {
+    structure.steps.iter().flat_map(|step| match &step.means {
+        Means::Newton { rows, .. } => rows.as_slice(),
+        Means::Linear(_) | Means::Explicit(_) | Means::Solve(_) => &[],
+    })
+}
+
+/// The coupling that gives an unknown.
+fn coupling(means: &Means) -> Option<LoopClosure> {
+    match means {
+        Means::Linear(id) | Means::Explicit(id) => Some(LoopClosure::Constraint(*id)),
+        Means::Solve(_) | Means::Newton { .. } => None,
+    }
 }

@@ -13,7 +13,7 @@ use crate::model::types::{ConstraintKind, Coordinate, JointId, LoopClosure, Mode
 
 use super::problem::Problem;
 use super::rank;
-use super::steadiness::{STEADY, everywhere, steadiness};
+use super::steadiness::{STEADY, needed, steadiness};
 use super::stress::are_determined;
 use super::tape::Values;
 
@@ -69,8 +69,8 @@ impl<'m> Writings<'m> {
     }
 
     fn is_steady(&self, writing: Writing, own: f64) -> bool {
-        let steadiness = steadiness(self.model, self.structure, writing);
-        steadiness >= STEADY || (steadiness >= own && everywhere(self.model, self.structure, writing).needed.is_empty())
+        steadiness(self.model, self.structure, writing) >= STEADY.min(own)
+            && needed(self.model, self.structure, writing).is_empty()
     }
 
     /// Whether some components of a way are kept and others are not. All three say the same in any axes.
