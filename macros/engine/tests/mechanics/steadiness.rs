@@ -74,12 +74,12 @@ fn bennetts_linkage_moves_alike_at_all_poses() {
             body one {{ mass: 1.0, com: [0.5, 0.1, 0.2], inertia: inertia(0.5, 0.6, 0.7, 0.02, -0.03, 0.01) }}
             body two {{ mass: 0.7, com: [1.1, -0.2, 0.1], inertia: inertia(0.3, 0.2, 0.4, 0.01, 0.02, -0.01) }}
             body three {{ mass: 1.3, com: [0.2, 0.3, -0.1], inertia: inertia(0.4, 0.5, 0.3, 0.03, 0.01, 0.02) }}
-            joint first: Revolute {{ parent: ground, child: one, axis: Z }}
+            joint first: Revolute {{ parent: ground.at([0.2, -0.4, 0.1]).rotated([1.0, 2.0, -0.5], 0.7), child: one, axis: Z }}
             joint second: Revolute {{ parent: one.at(X).rotated(X, {a:?}), child: two, axis: Z }}
             joint third: Revolute {{ parent: two.at(B * X).rotated(X, {b:?}), child: three, axis: Z }}
             #[cut]
             joint fourth: Revolute {{
-                parent: three.at(X).rotated(X, {a:?}), child: ground.rotated(X, -{b:?}).at(-B * X), axis: Z,
+                parent: three.at(X).rotated(X, {a:?}), child: ground.at([0.2, -0.4, 0.1]).rotated([1.0, 2.0, -0.5], 0.7).rotated(X, -{b:?}).at(-B * X), axis: Z,
             }}"
         ));
         let (half, off) = (0.5 * (a + b), 0.5 * (b - a));

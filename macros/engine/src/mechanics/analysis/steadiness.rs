@@ -39,6 +39,8 @@ const LARGE: usize = 30;
 /// Steps of each, and the most that a coordinate moves in one. [rad, sizes]
 const STEPS: usize = 30;
 const STEP: f64 = 0.2;
+/// The time of a step, where it has a say. [s]
+const PERIOD: f64 = 0.2;
 /// Steps are halved as often at most, where a line turns by more than this (cosine).
 const HALVINGS: usize = 7;
 const CLEAR: f64 = 0.94;
@@ -88,10 +90,11 @@ struct Judged<'p> {
 /// By equation that was left out, in the order of a choice, the line of its coefficients; nothing where others don't give it.
 type Lines = Vec<Option<Vec<f64>>>;
 
-/// A step of a motion: where it begins, by how much columns move in it before loops are closed again, where it ends.
+/// A step of a motion: where it begins, by how much columns and the time move in it before loops are closed again, where it ends.
 struct Step {
     from: Point,
     way: Vec<f64>,
+    time: f64,
     to: Point,
 }
 
@@ -163,8 +166,18 @@ impl<'p> Judged<'p> {
         shares.fold(1.0, f64::min)
     }
 
+    /// Whether time has a say: poses are all those of time zero.
+    fn is_timed(&self) -> bool {
+        self.group.equations.iter().any(|&k| self.problem.equations[k].timed)
+    }
+
+    /// Whether shares are the same at all poses.
+    fn is_constant(&self) -> bool {
+        !self.is_timed() && self.steadiness() > CONSTANT
+    }
+
     fn needed(&self) -> Vec<Row> {
-        if self.steadiness() > CONSTANT {
+        if self.is_constant() {
             return Vec::new();
         }
         let poles = self.poles(&self.motions(), &self.as_found());
@@ -173,7 +186,7 @@ impl<'p> Judged<'p> {
 
     /// What is kept already where it is enough.
     fn enough(&self) -> Option<Vec<Row>> {
-        if self.steadiness() > CONSTANT {
+        if self.is_constant() {
             return Some(self.kept.clone());
         }
         let (motions, mut order) = (self.motions(), self.as_found());
@@ -252,6 +265,7 @@ impl<'p> Judged<'p> {
         let CoupledRows { equations, columns } = &self.group;
         let search = Search::new(self.problem, equations, columns);
         let (mut values, mut from, mut steps) = (Values::default(), pose.clone(), Vec::new());
+        let time = if self.is_timed() { PERIOD * towards.first().map_or(1.0, |x| x.signum()) } else { 0.0 };
         for _ in 0..STEPS {
             let mut allowed = Basis::default();
             for row in search.jacobian_at(&from, &mut values) {
@@ -259,23 +273,30 @@ impl<'p> Judged<'p> {
             }
             towards = allowed.rest(&towards);
             let most = towards.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-            if most < 1e-6 {
+            // What time alone moves goes on.
+            if most < 1e-6 && time == 0.0 {
                 break;
             }
-            towards.iter_mut().for_each(|x| *x *= STEP / most);
+            towards.iter_mut().for_each(|x| *x *= STEP / most.max(1e-6));
             let mut way = vec![0.0; self.problem.columns.len()];
             columns.iter().zip(&towards).for_each(|(&column, x)| way[column] = *x);
-            let Some(to) = self.moved(&search, &from, &way, 1.0, &mut values) else { break };
-            steps.push(Step { from: std::mem::replace(&mut from, to.clone()), way, to });
+            let mut step = Step { from: from.clone(), way, time, to: from };
+            let Some(to) = self.moved(&search, &step, 1.0, &mut values) else { break };
+            step.to = to.clone();
+            steps.push(step);
+            from = to;
         }
         steps
     }
 
     /// A part of a step.
-    fn moved(&self, search: &Search<'_>, from: &Point, way: &[f64], part: f64, values: &mut Values) -> Option<Point> {
-        let mut point = from.clone();
-        let way: Vec<f64> = way.iter().map(|x| part * x).collect();
+    fn moved(&self, search: &Search<'_>, step: &Step, part: f64, values: &mut Values) -> Option<Point> {
+        let mut point = step.from.clone();
+        let way: Vec<f64> = step.way.iter().map(|x| part * x).collect();
         self.problem.displace(&mut point, &way);
+        if let Some(time) = self.problem.time_at(&step.from) {
+            self.problem.put_time(&mut point, time + part * step.time);
+        }
         search.close(&mut point, values).then_some(point)
     }
 
@@ -297,7 +318,7 @@ impl<'p> Judged<'p> {
                 while let Some((a, of_a, b, of_b, halvings)) = open.pop() {
                     let middle = 0.5 * (a + b);
                     let halved = (halvings > 0 && poles.is_open(&of_a, &of_b, halvings > COARSE))
-                        .then(|| self.moved(&search, &step.from, &step.way, middle, &mut values));
+                        .then(|| self.moved(&search, step, middle, &mut values));
                     if let Some(point) = halved.flatten() {
                         let lines = self.lines(&point, order, &mut values);
                         poles.look(&lines);
